@@ -1,0 +1,34 @@
+// The 4-wide BVH as the software walks it. The bytes the unit fetches are made from it by image.h.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/accel/child_ref.h"
+#include "model/intersect/slab_test.h"
+#include "model/numeric/vec3.h"
+
+namespace ctu::accel {
+
+/// A node: the boxes of up to four children and where they are. Empty lanes come last.
+struct alignas(64) Node4 {
+  intersect::Box4 boxes;
+  ChildRef child[intersect::kLanes];
+};
+
+/// A triangle in leaf order, with the id it has in the scene.
+struct LeafTriangle {
+  Vec3 v0, v1, v2;
+  std::uint32_t primitive;
+};
+static_assert(sizeof(LeafTriangle) == 40);
+
+/// Node 0 is the root, present even when the scene has one triangle; children come after their parent.
+struct Bvh4 {
+  std::vector<Node4> nodes;
+  std::vector<LeafTriangle> triangles;
+  Vec3 lower, upper;  ///< bounds of the scene
+  int depth = 0;      ///< nodes on the longest path from the root
+};
+
+}  // namespace ctu::accel
