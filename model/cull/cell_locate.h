@@ -1,0 +1,26 @@
+// The cells of a box in which a ray's segment begins and ends (Algorithm 1), found from the slab test's times
+// and with their uncertainty: the unit's `cell_locate` stage (DESIGN section 5).
+#pragma once
+
+#include <cstdint>
+
+#include "model/intersect/slab_test.h"
+
+namespace ctu::cull {
+
+/// Begin and end cell, 4 bits each: begin x,y,z in bits 0..11, end x,y,z in bits 12..23. Bit 31: rounding leaves
+/// more than one candidate for some cell, so the key proves nothing and the child must be passed.
+struct CellKey {
+  std::uint32_t packed = 0;
+  static constexpr std::uint32_t kUncertain = 1u << 31;
+  int begin(int axis) const { return static_cast<int>(packed >> (4 * axis)) & 15; }
+  int end(int axis) const { return static_cast<int>(packed >> (12 + 4 * axis)) & 15; }
+  bool uncertain() const { return (packed & kUncertain) != 0; }
+};
+
+/// For a lane that the slab test hit: the half-open (floor) cells of the points at t0 and t1 in an
+/// R_ray^3 grid over the box, clamped to the grid.
+CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTimes& times,
+                    const intersect::Box4& boxes, int lane, int ray_resolution);
+
+}  // namespace ctu::cull

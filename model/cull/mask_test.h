@@ -1,0 +1,49 @@
+// The question behind the box test, for any design: may the ray touch an occupied cell of this child?
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "model/accel/bvh4.h"
+#include "model/cull/cell_locate.h"
+#include "model/cull/comparators.h"
+#include "model/cull/ideal.h"
+#include "model/cull/object_masks.h"
+#include "model/cull/projection_table.h"
+#include "model/cull/ray_mask_table.h"
+
+namespace ctu::cull {
+
+/// The answers for the four lanes of a node.
+struct MaskTestResult {
+  std::uint8_t pass = 0;        ///< bit lane: hit by the slab test and not culled
+  std::uint8_t uncertain = 0;   ///< bit lane: passed because rounding left two candidate cells
+  std::uint32_t key[intersect::kLanes] = {};  ///< packed CellKey of hit lanes, for designs that read tables
+};
+
+/// The tables of one design, built once and shared read-only by threads, and the test over them.
+class MaskTester {
+ public:
+  MaskTester(Design design, const MaskOptions& options);
+  ~MaskTester();
+  MaskTester(MaskTester&&) noexcept;
+  MaskTester& operator=(MaskTester&&) noexcept;
+
+  Design design() const;
+  const MaskOptions& options() const;
+
+  /// `times` from slab_test (slab_test_outer is enough for Design::None); `object_masks` is the mask of lane 0,
+  /// the other lanes' follow. Lanes that the slab test missed are not asked.
+  MaskTestResult test(const intersect::PreparedRay& ray, const intersect::SlabTimes& times,
+                      const intersect::Box4& boxes, const std::uint64_t* object_masks) const;
+
+  /// The tables, for the unit's stages; null where the design has none.
+  const RayMaskTable* ray_mask_table() const;
+  const ProjectionTable* projection_table() const;
+
+ private:
+  struct Tables;
+  std::unique_ptr<Tables> tables_;
+};
+
+}  // namespace ctu::cull
