@@ -13,7 +13,8 @@ namespace ctu::reference {
 /// One visit of a node or a leaf, 8 bytes.
 ///   node: lanes = box hits (bits 0..3) | survivors of the mask test (bits 4..7); detail = visiting order of the survivors,
 ///         nearest first, 2 bits each from bit 0, then uncertain lanes in bits 8..11
-///   leaf: lanes = triangles tested (an any-hit ray stops at its first hit); detail = bit i: triangle i became the best hit
+///   leaf: lanes = triangles tested (all of the leaf's; an any-hit ray that found one leaves after the leaf);
+///         detail = bit i: triangle i became the best hit
 struct Step {
   accel::ChildRef ref = 0;
   std::uint8_t dropped = 0;  ///< stack entries popped and dropped before this visit: their t0 lay beyond the best hit
