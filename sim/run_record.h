@@ -1,0 +1,34 @@
+// One run with everything that is needed to understand and repeat it: as JSON for programs, as a table for people.
+#pragma once
+
+#include <string>
+
+#include "model/pipeline/result.h"
+#include "model/pipeline/unit_config.h"
+
+namespace ctu::sim {
+
+struct RunRecord {
+  std::string engine;       ///< "reference" (untimed: no cycles) or "cycle"
+  std::string mode;         ///< of the cycle engine: "plain", "batch", "cycle", "pins"
+  std::string source;       ///< "replay" or "exec"
+  std::string trace_path, trace_hash, scene;
+  std::string command;      ///< as it was typed
+  pipeline::UnitConfig config;
+  std::string config_hash;
+  std::string design;
+  pipeline::UnitResult result;
+  double wall_seconds = 0;  ///< of the simulation alone, without loading
+
+  double cycles_per_ray() const;
+  double cycles_per_second() const;
+  double rays_per_second() const;
+};
+
+/// Writes the result file; Error when it cannot be written.
+void write_json(const RunRecord& record, const std::string& path);
+
+/// The run for people: the sums, busy/stalled/idle of every stage, where rays spent their time, counters.
+void print_record(const RunRecord& record);
+
+}  // namespace ctu::sim
