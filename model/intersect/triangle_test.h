@@ -1,5 +1,18 @@
-// The watertight ray/triangle test of Woop, Benthin and Wald (JCGT 2013), in binary32 round-to-nearest, the signs
-// of the three edge functions exact (a comparison of two 48-bit products), both faces hit.
+// The watertight ray/triangle test of Woop, Benthin and Wald (JCGT 2013): shear to ray space, then the signs of
+// the three edge functions; both faces are hit.
+//
+// Numbers between the binary32 inputs and the binary32 results have binary32's 24-bit significand, rounded to
+// nearest even, and an exponent wide enough (11 bits) never to leave its range: nothing overflows or underflows,
+// so a mesh of size 1e-30 is as watertight as one of size 1. Below, R(x) is one such rounding of an exact value:
+//   A, B, C = R(v - origin) of each vertex and axis
+//   x       = R(A[kx] - R(sx A[kz]))      y = R(A[ky] - R(sy A[kz]))      of each vertex
+//   U       = R(cx by - cy bx)            V = R(ax cy - ay cx)            W = R(bx ay - by ax)
+//             one rounding of the difference of two exact 48-bit products: the sign is exact, and zero means zero
+//   det     = R(R(U + V) + W)
+//   T       = R(R(R(U A[kz]) + R(V B[kz])) + R(W C[kz]))
+//   t       = T / R(det d[kz])            u = V / det       v = W / det   one rounding, to binary32 proper
+// The paper's third shear constant 1/d[kz] is not needed: dividing by det d[kz] costs one product instead of three
+// and does not overflow for subnormal directions.
 #pragma once
 
 #include "model/intersect/ray.h"
@@ -11,7 +24,8 @@ struct TriangleResult {
   float t = 0, u = 0, v = 0;
 };
 
-/// Hit iff the edge functions agree in sign, the determinant is not zero and tmin <= t <= tmax.
+/// Hit iff no edge function is negative while another is positive, the determinant is not zero and
+/// tmin <= t <= tmax. A ray through a shared edge or vertex hits all triangles that share it. Vertices are finite.
 TriangleResult triangle_test(const PreparedRay& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2, float tmax);
 
 }  // namespace ctu::intersect

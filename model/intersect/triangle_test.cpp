@@ -1,0 +1,68 @@
+#include "model/intersect/triangle_test.h"
+
+#include <bit>
+#include <cstdint>
+
+namespace ctu::intersect {
+
+namespace {
+
+/// Round to nearest even at 24 significant bits, the exponent kept as it is. Carries run into the exponent rightly.
+double round24(double x) {
+  constexpr std::uint64_t kDropped = (std::uint64_t{1} << 29) - 1;
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  const std::uint64_t even = (bits >> 29) & 1;
+  return std::bit_cast<double>((bits + (kDropped >> 1) + even) & ~kDropped);
+}
+
+/// R(p - q) for two exact products. The difference may need more than binary64's 53 bits; rounding it to odd keeps
+/// the second rounding right (Boldo and Melquiond 2008). Its sign is exact at every step.
+double round24_difference(double p, double q) {
+  const double nearest = p - q;
+  const double rest = p - nearest;
+  const double error = (p - (nearest + rest)) + (rest - q);
+  auto bits = std::bit_cast<std::uint64_t>(nearest);
+  if (error != 0 && (bits & 1) == 0) bits += (error > 0) == (nearest > 0) ? 1 : std::uint64_t(-1);
+  return round24(std::bit_cast<double>(bits));
+}
+
+/// The quotient of two 24-bit numbers rounded to binary32: through binary64 and once more, which is the same
+/// (Figueroa 1995). A zero quotient is +0, so that equal results are equal bits.
+float quotient(double p, double q) { return static_cast<float>(p / q) + 0.0f; }
+
+struct Sheared {
+  double x, y, z;  ///< z is the unsheared, unscaled distance along kz
+};
+
+Sheared shear(const PreparedRay& ray, const Vec3& vertex) {
+  const auto from_origin = [&](int axis) {
+    return round24(static_cast<double>(vertex[axis]) - static_cast<double>(ray.ray.origin[axis]));
+  };
+  const double z = from_origin(ray.kz);
+  return {round24(from_origin(ray.kx) - round24(static_cast<double>(ray.sx) * z)),
+          round24(from_origin(ray.ky) - round24(static_cast<double>(ray.sy) * z)), z};
+}
+
+}  // namespace
+
+TriangleResult triangle_test(const PreparedRay& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2, float tmax) {
+  const Sheared a = shear(ray, v0), b = shear(ray, v1), c = shear(ray, v2);
+  const double cxby = c.x * b.y, cybx = c.y * b.x;
+  const double axcy = a.x * c.y, aycx = a.y * c.x;
+  const double bxay = b.x * a.y, byax = b.y * a.x;
+  const bool any_negative = (cxby < cybx) | (axcy < aycx) | (bxay < byax);
+  const bool any_positive = (cxby > cybx) | (axcy > aycx) | (bxay > byax);
+  if (any_negative == any_positive) return {};  // signs disagree, or all zero: the triangle is seen edge-on
+
+  const double u = round24_difference(cxby, cybx);
+  const double v = round24_difference(axcy, aycx);
+  const double w = round24_difference(bxay, byax);
+  const double det = round24(round24(u + v) + w);
+  const double depth = round24(round24(round24(u * a.z) + round24(v * b.z)) + round24(w * c.z));
+  const double scaled_det = round24(det * static_cast<double>(ray.ray.direction[ray.kz]));
+  const float t = quotient(depth, scaled_det);
+  if (!(ray.ray.tmin <= t && t <= tmax)) return {};
+  return {true, t, quotient(v, det), quotient(w, det)};
+}
+
+}  // namespace ctu::intersect
