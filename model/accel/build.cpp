@@ -1,0 +1,125 @@
+#include "model/accel/build.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+
+#include "model/accel/binary_tree.h"
+#include "model/accel/collapse.h"
+#include "model/accel/split.h"
+#include "model/base/error.h"
+#include "model/base/parallel.h"
+
+namespace ctu::accel {
+namespace {
+
+constexpr std::size_t kChunkTriangles = 16384;
+
+void check(const BuildOptions& o) {
+  const char* const where = "BVH build options";
+  if (o.max_leaf_triangles < 1 || o.max_leaf_triangles > kMaxLeafTriangles)
+    throw Error(where, fmt::format("max_leaf_triangles is {}", o.max_leaf_triangles),
+                fmt::format("choose 1 to {}", kMaxLeafTriangles));
+  if (o.bins < 2 || o.bins > kMaxBins)
+    throw Error(where, fmt::format("bins is {}", o.bins), fmt::format("choose 2 to {}", kMaxBins));
+  if (!(o.node_cost > 0 && o.triangle_cost > 0 && std::isfinite(o.node_cost) && std::isfinite(o.triangle_cost)))
+    throw Error(where, "node_cost and triangle_cost must be finite and above 0", "choose 1 for both, as the paper does");
+}
+
+void check_count(std::size_t triangles) {
+  if (triangles == 0) throw Error("mesh", "no triangle in it", "give a scene with at least one triangle");
+  if (triangles > kMaxTriangles)
+    throw Error("mesh", fmt::format("{} triangles", triangles),
+                fmt::format("the unit's child references name at most {}", kMaxTriangles));
+}
+
+/// Whether the three corners exist and are finite: x - x is 0 for those, NaN for the others.
+bool is_usable(const scene::Mesh& mesh, const std::array<std::uint32_t, 3>& corners) {
+  for (const std::uint32_t corner : corners) {
+    if (corner >= mesh.vertices.size()) return false;
+    const Vec3& v = mesh.vertices[corner];
+    if (!((v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0)) return false;
+  }
+  return true;
+}
+
+/// Checks every triangle and returns the bounds of those there are.
+Box3 checked_bounds(const scene::Mesh& mesh, int threads) {
+  const std::size_t count = mesh.triangles.size();
+  std::vector<Box3> partial((count + kChunkTriangles - 1) / kChunkTriangles, Box3::empty());
+  parallel_chunks(count, kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
+    Box3 box = Box3::empty();
+    for (std::size_t i = first; i < last; ++i) {
+      if (!is_usable(mesh, mesh.triangles[i]))
+        throw Error(fmt::format("mesh, triangle {}", i), "a vertex is missing or not finite",
+                    "remove the triangle or repair the vertex");
+      for (const std::uint32_t corner : mesh.triangles[i]) box.grow(to_vector(mesh.vertices[corner]));
+    }
+    partial[first / kChunkTriangles] = box;
+  });
+  Box3 bounds = Box3::empty();
+  for (const Box3& box : partial) bounds.grow(box);
+  return bounds;
+}
+
+/// A power of two that brings the scene's extent near 1, so that areas neither overflow nor vanish: the builder
+/// compares costs in scaled space. Coordinates stay below 2^60.
+float work_scale(const Box3& bounds) {
+  alignas(16) float lower[4], upper[4];
+  _mm_store_ps(lower, bounds.lower);
+  _mm_store_ps(upper, bounds.upper);
+  double extent = 0, largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    extent = std::max(extent, static_cast<double>(upper[axis]) - lower[axis]);
+    largest = std::max({largest, std::fabs(static_cast<double>(lower[axis])), std::fabs(static_cast<double>(upper[axis]))});
+  }
+  if (extent == 0) extent = largest;
+  if (extent == 0) return 1;
+  const int exponent = std::min(-std::ilogb(extent), 59 - std::ilogb(largest));
+  return std::ldexp(1.0f, std::clamp(exponent, -149, 126));
+}
+
+using RefArray = std::unique_ptr<TriangleRef[]>;
+
+RefArray make_refs(const scene::Mesh& mesh, float scale, int threads) {
+  RefArray refs = std::make_unique_for_overwrite<TriangleRef[]>(mesh.triangles.size());
+  parallel_chunks(mesh.triangles.size(), kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
+    const __m128 factor = _mm_set1_ps(scale);
+    for (std::size_t i = first; i < last; ++i) {
+      Box3 box = Box3::empty();
+      for (const std::uint32_t corner : mesh.triangles[i]) box.grow(to_vector(mesh.vertices[corner]));
+      box = {_mm_mul_ps(box.lower, factor), _mm_mul_ps(box.upper, factor)};
+      refs[i] = TriangleRef::make(box, static_cast<std::uint32_t>(i));
+    }
+  });
+  return refs;
+}
+
+std::vector<LeafTriangle> in_leaf_order(const scene::Mesh& mesh, std::span<const TriangleRef> refs, int threads) {
+  std::vector<LeafTriangle> triangles(refs.size());
+  parallel_chunks(refs.size(), kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint32_t id = refs[i].id();
+      const auto& corners = mesh.triangles[id];
+      triangles[i] = {mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]], id};
+    }
+  });
+  return triangles;
+}
+
+}  // namespace
+
+Bvh4 build(const scene::Mesh& mesh, const BuildOptions& options) {
+  check(options);
+  check_count(mesh.triangles.size());
+  const float scale = work_scale(checked_bounds(mesh, options.threads));
+  const RefArray storage = make_refs(mesh, scale, options.threads);
+  const std::span<TriangleRef> refs(storage.get(), mesh.triangles.size());
+  const std::vector<BinaryNode> tree = build_binary_tree(refs, options.bins, options.threads);
+  return collapse(tree, in_leaf_order(mesh, refs, options.threads), options);
+}
+
+}  // namespace ctu::accel

@@ -1,0 +1,75 @@
+// The bytes that the unit fetches: nodes and triangles as they lie in memory, little-endian whatever the host is.
+//
+// A node (the paper's Fig. 6a), lanes side by side:
+//   byte   0  lo.x[4]   16  lo.y[4]   32  lo.z[4]   48  hi.x[4]   64  hi.y[4]   80  hi.z[4]    binary32
+//   byte  96  child[4]                                                                        u32, child_ref.h
+//   byte 112  mask[4], each ceil(mask_bits / 8) bytes, bit i in byte i / 8 at place i % 8     absent if mask_bits = 0
+// Its stride is that size rounded up to a multiple of 4 and of the alignment: 112 bytes without masks, 116 with 8-bit
+// indices into a compression table, 144 with 64-bit masks (R = 4), 220 with 216-bit masks (R = 6).
+//
+// A triangle, in leaf order:
+//   byte   0  v0.xyz   12  v1.xyz   24  v2.xyz   binary32
+//   byte  36  primitive                          u32, its id in the scene
+// Its stride is 40 bytes, rounded up to the alignment. Nodes start at byte 0, triangles at the next multiple of 64.
+// Bytes that nothing above names are 0.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "model/accel/bvh4.h"
+
+namespace ctu::accel {
+
+inline constexpr std::uint32_t kNodeBytes = 112;  ///< without masks
+inline constexpr std::uint32_t kTriangleBytes = 40;
+inline constexpr std::uint32_t kImageSectionAlignmentBytes = 64;
+
+struct ImageLayout {
+  std::uint32_t mask_bits = 0;                 ///< of one lane; 0: no masks
+  std::uint32_t node_alignment_bytes = 4;      ///< a power of two, at least 4
+  std::uint32_t triangle_alignment_bytes = 4;  ///< likewise
+  bool operator==(const ImageLayout&) const = default;
+};
+
+/// Bytes of one lane's mask.
+constexpr std::uint32_t mask_bytes(const ImageLayout& layout) { return (layout.mask_bits + 7) / 8; }
+
+struct Image {
+  ImageLayout layout;
+  std::uint32_t node_stride_bytes = 0, triangle_stride_bytes = 0;
+  std::uint64_t node_base = 0, triangle_base = 0;  ///< byte addresses
+  std::uint32_t node_count = 0, triangle_count = 0;
+  int depth = 0;       ///< nodes on the longest path; a traversal stack never holds more than 3 * depth + 1 entries
+  Vec3 lower, upper;   ///< bounds of the scene
+  std::vector<std::uint8_t> bytes;
+
+  std::uint64_t node_address(std::uint32_t index) const {
+    return node_base + static_cast<std::uint64_t>(index) * node_stride_bytes;
+  }
+  std::uint64_t triangle_address(std::uint32_t index) const {
+    return triangle_base + static_cast<std::uint64_t>(index) * triangle_stride_bytes;
+  }
+};
+
+/// The mask of node n, lane l is `masks[(n * 4 + l) * words_per_mask]` and the words behind it, lowest bits first;
+/// bits from mask_bits on are dropped. `masks` may be null when layout.mask_bits is 0. Throws Error on a layout that
+/// is not one (alignment, words that do not hold mask_bits).
+Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask, const ImageLayout& layout);
+
+/// Reading one thing at its address. Throws Error when the index is out of range.
+Node4 read_node(const Image& image, std::uint32_t node);
+LeafTriangle read_triangle(const Image& image, std::uint32_t triangle);
+/// Fills ceil(mask_bits / 64) words.
+void read_mask(const Image& image, std::uint32_t node, int lane, std::uint64_t* words);
+
+/// The tree an image was made of, bit for bit. The image must be valid.
+Bvh4 decode(const Image& image);
+
+/// Throws Error unless every traversal of the image ends within its bytes: sizes and strides as the layout says, empty
+/// lanes last, every node but the root the child of exactly one earlier node, every triangle in exactly one leaf,
+/// `depth` true, boxes ordered and without NaN, vertices finite.
+void validate(const Image& image);
+
+}  // namespace ctu::accel
