@@ -1,0 +1,96 @@
+#include "model/scene/draft.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "model/base/error.h"
+#include "model/scene/camera.h"
+
+namespace ctu::scene {
+namespace {
+
+constexpr std::size_t kMostWarnings = 50;
+
+bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void check_mesh(const Mesh& mesh, const std::string& where) {
+  if (mesh.triangles.empty())
+    throw Error(where, "holds no triangles", "name a scene with at least one triangle; an export may have been cut off");
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (!finite(mesh.vertices[v]))
+      throw Error(fmt::format("{}: vertex {}", where, v), "is not finite in binary32 (NaN, infinite or overflowed)",
+                  "repair or scale down the model before loading it");
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const std::uint32_t index : mesh.triangles[t])
+      if (index >= mesh.vertices.size())
+        throw Error(fmt::format("{}: triangle {}", where, t),
+                    fmt::format("names vertex {}, but there are {}", index, mesh.vertices.size()),
+                    "the file is damaged or was exported wrongly");
+}
+
+// The cross product of two edges in binary64: the edges are exact or nearly so, and a triangle that the file gives with
+// equal or exactly aligned corners comes out as exact zeros.
+bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double ux = double{b.x} - a.x, uy = double{b.y} - a.y, uz = double{b.z} - a.z;
+  const double vx = double{c.x} - a.x, vy = double{c.y} - a.y, vz = double{c.z} - a.z;
+  return uy * vz == uz * vy && uz * vx == ux * vz && ux * vy == uy * vx;
+}
+
+void measure(Scene& scene) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  scene.lower = {kInfinity, kInfinity, kInfinity};
+  scene.upper = {-kInfinity, -kInfinity, -kInfinity};
+  const auto& vertices = scene.mesh.vertices;
+  for (const auto& [a, b, c] : scene.mesh.triangles) {
+    scene.report.zero_area_triangles += has_no_area(vertices[a], vertices[b], vertices[c]);
+    for (const std::uint32_t corner : {a, b, c})
+      for (int axis = 0; axis < 3; ++axis) {
+        scene.lower[axis] = std::min(scene.lower[axis], vertices[corner][axis]);
+        scene.upper[axis] = std::max(scene.upper[axis], vertices[corner][axis]);
+      }
+  }
+}
+
+}  // namespace
+
+void Draft::warn(const std::string& text) {
+  for (auto& [known, times] : warnings)
+    if (known == text) {
+      ++times;
+      return;
+    }
+  if (warnings.size() < kMostWarnings)
+    warnings.emplace_back(text, 1);
+  else if (warnings.size() == kMostWarnings)
+    warnings.emplace_back("further warnings are left out", 1);
+}
+
+void Draft::add_format(const std::string& format) {
+  if (report.format.find(format) != std::string::npos) return;
+  report.format += report.format.empty() ? format : "+" + format;
+}
+
+void Draft::reserve_more(const std::string& where, std::uint64_t more_vertices, std::uint64_t more_triangles) {
+  if (more_vertices > kMostVertices - mesh.vertices.size() || more_triangles > kMostTriangles - mesh.triangles.size())
+    throw Error(where,
+                fmt::format("brings the scene to more than {} triangles or {} vertices", kMostTriangles, kMostVertices),
+                "load a part of the scene");
+}
+
+Scene finish(Draft&& draft, const std::string& name, const std::string& where) {
+  check_mesh(draft.mesh, where);
+  Scene scene;
+  scene.name = name;
+  scene.mesh = std::move(draft.mesh);
+  scene.report = std::move(draft.report);
+  measure(scene);
+  for (const auto& [text, times] : draft.warnings)
+    scene.report.warnings.push_back(times == 1 ? text : fmt::format("{} ({} times)", text, times));
+  scene.camera = draft.camera ? *draft.camera : default_camera(scene);
+  return scene;
+}
+
+}  // namespace ctu::scene

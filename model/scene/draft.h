@@ -1,0 +1,39 @@
+// A scene while it is read: every reader appends to one draft, and finish() checks the whole.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/scene/load.h"
+#include "model/scene/scene.h"
+
+namespace ctu::scene {
+
+/// The most triangles a scene may have (what a leaf reference can name) and the most vertices that go with them.
+inline constexpr std::uint64_t kMostTriangles = (std::uint64_t{1} << 27) - 1;
+inline constexpr std::uint64_t kMostVertices = 3 * kMostTriangles;
+
+struct Draft {
+  LoadOptions options;
+  Mesh mesh;
+  LoadReport report;
+  std::optional<Camera> camera;  ///< the first that a file states
+
+  /// Counts a warning; equal ones become one line with their number.
+  void warn(const std::string& text);
+  /// Notes the format of one more file; several formats are joined by '+'.
+  void add_format(const std::string& format);
+  /// Throws Error naming `where` if that many more do not fit a scene. Call before allocating.
+  void reserve_more(const std::string& where, std::uint64_t vertices, std::uint64_t triangles);
+
+  std::vector<std::pair<std::string, std::uint64_t>> warnings;
+};
+
+/// Checks what no reader may get wrong (at least one triangle, indices in range, vertices finite), counts triangles
+/// without area, and adds bounds and camera. `where` is what the messages name.
+Scene finish(Draft&& draft, const std::string& name, const std::string& where);
+
+}  // namespace ctu::scene
