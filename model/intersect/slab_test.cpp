@@ -122,7 +122,7 @@ __mmask16 lanes_of(std::uint8_t axes) {
 
 __m512 four_of_each(const Vec3& v) {
   const __m512i axis = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 0, 0, 0, 0);
-  return _mm512_maskz_permutexvar_ps(0xffff, axis, _mm512_castps128_ps512(_mm_maskz_loadu_ps(7, &v.x)));
+  return _mm512_maskz_permutexvar_ps(numeric::embedded::kAll, axis, _mm512_castps128_ps512(_mm_maskz_loadu_ps(7, &v.x)));
 }
 
 /// All three axes of the ray, each mirrored so that it moves upwards.
@@ -145,7 +145,7 @@ struct Axes {
 
 __m512 lower_time(const Axes& axes, __m512 plane) {
   constexpr int kDown = numeric::embedded::kMode<Round::Down>;
-  const __m512 distance = _mm512_sub_round_ps(plane, axes.origin, kDown);
+  const __m512 distance = _mm512_maskz_sub_round_ps(numeric::embedded::kAll, plane, axes.origin, kDown);
   const __mmask16 moves = _mm512_cmp_ps_mask(distance, _mm512_setzero_ps(), _CMP_NEQ_OQ);
   const __mmask16 ahead = _mm512_cmp_ps_mask(distance, _mm512_setzero_ps(), _CMP_GE_OQ);
   return _mm512_maskz_mul_round_ps(moves, distance, _mm512_mask_blend_ps(ahead, axes.rcp_large, axes.rcp_small), kDown);
@@ -153,7 +153,7 @@ __m512 lower_time(const Axes& axes, __m512 plane) {
 
 __m512 upper_time(const Axes& axes, __m512 plane) {
   constexpr int kUp = numeric::embedded::kMode<Round::Up>;
-  const __m512 distance = _mm512_sub_round_ps(plane, axes.origin, kUp);
+  const __m512 distance = _mm512_maskz_sub_round_ps(numeric::embedded::kAll, plane, axes.origin, kUp);
   const __mmask16 moves = _mm512_cmp_ps_mask(distance, _mm512_setzero_ps(), _CMP_NEQ_OQ);
   const __mmask16 ahead = _mm512_cmp_ps_mask(distance, _mm512_setzero_ps(), _CMP_GE_OQ);
   return _mm512_maskz_mul_round_ps(moves, distance, _mm512_mask_blend_ps(ahead, axes.rcp_small, axes.rcp_large), kUp);
