@@ -1,0 +1,169 @@
+#include "sim/cli.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "model/base/version.h"
+#include "sim/commands.h"
+
+namespace ctu::sim {
+namespace {
+
+void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
+  auto* scene = app.add_option("scene", args.scenes,
+                               "scene file (.obj .ply .gltf .glb .pbrt .scn .hair .tfx .nff .list, each also .zst) or "
+                               "a generated one: gen:hair-ball?strands=2000&seed=1");
+  scene->required()->expected(1, several ? -1 : 1);
+  app.add_option("--thickness", args.strand_thickness, "ribbon width of strands in scene units; 0: from the file");
+  app.add_option("--rays", args.rays, "primary, diffuse, shadow, ao or random")->capture_default_str();
+  app.add_option("--size", args.size, "picture size in pixels, WxH")->capture_default_str();
+  app.add_option("--spp", args.spp, "samples per pixel")->capture_default_str();
+  app.add_option("--bounces", args.bounces, "diffuse: bounces after the primary ray, at most")->capture_default_str();
+  app.add_option("--seed", args.seed, "seed of every random number")->capture_default_str();
+  app.add_option("--count", args.count, "random: number of rays; 0: pixels times samples")->capture_default_str();
+  app.add_flag("--skip-primary", args.skip_primary, "diffuse: leave the primary rays out");
+  app.add_option("--r", args.resolution, "R: cells per axis of an object mask, 2..8")->capture_default_str();
+  app.add_option("--r-ray", args.ray_resolution, "R_ray: cells per axis of the ray's key; 0: as --r")->capture_default_str();
+  app.add_option("--l", args.levels, "L: levels below from which masks are made, 1..5 or inf")->capture_default_str();
+  app.add_option("--leaf", args.leaf_triangles, "triangles in a leaf, at most")->capture_default_str();
+  app.add_option("--threads", args.threads, "0: one for each core; results do not depend on it")->capture_default_str();
+}
+
+void add_unit_options(CLI::App& app, UnitArgs& args) {
+  app.add_option("-c,--config", args.config_path, "TOML file with the unit's parameters");
+  app.add_option("--set", args.sets, "KEY=VALUE over the file; may be repeated")->expected(1)->take_all();
+  app.add_option("--mode", args.mode, "plain, batch, cycle or pins: the same cycles at different speeds")->capture_default_str();
+  app.add_option("--source", args.source, "replay recorded outcomes, or exec: compute them")->capture_default_str();
+}
+
+/// Commands share one place for their arguments, filled while the command line is parsed.
+struct Parsed {
+  RecordArgs record;
+  RunArgs run;
+  CompareArgs compare;
+  CullingArgs culling;
+  HeatmapArgs heatmap;
+  TraceArgs trace;
+  UnitArgs config;
+  bool config_plain = false;
+  BenchArgs bench;
+  int exit_code = 0;
+};
+
+void add_record(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand("record", "build the tree and its masks, record the rays of a scene");
+  add_scene_options(*command, parsed.record.scene, false);
+  command->add_option("-o,--output", parsed.record.output, "trace file to write (.ctut)")->required();
+  command->add_option("--designs", parsed.record.designs, "whose event sequences to store; others are derived at a run")
+      ->capture_default_str();
+  command->callback([&] { parsed.exit_code = record_command(parsed.record); });
+}
+
+void add_run(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand("run", "replay a trace through the unit and check every ray");
+  command->add_option("trace", parsed.run.trace, "trace file")->required();
+  add_unit_options(*command, parsed.run.unit);
+  command->add_option("--engine", parsed.run.engine, "cycle: the timed unit; reference: untimed")->capture_default_str();
+  command->add_option("--json", parsed.run.json_path, "write the result here");
+  command->add_option("--waves", parsed.run.waves_path, "write a waveform (VCD) of --window here");
+  command->add_option("--window", parsed.run.window, "cycles A:B of the waveform");
+  command->add_option("--first", parsed.run.first_ray, "first ray")->capture_default_str();
+  command->add_option("--rays", parsed.run.rays, "number of rays; 0: to the end")->capture_default_str();
+  command->callback([&] { parsed.exit_code = run_command(parsed.run); });
+}
+
+void add_compare(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand("compare", "run traces with several mask-test designs, a line each");
+  command->add_option("traces", parsed.compare.traces, "trace files")->required();
+  add_unit_options(*command, parsed.compare.unit);
+  command->add_option("--designs", parsed.compare.designs, "list of designs")->capture_default_str();
+  command->callback([&] { parsed.exit_code = compare_command(parsed.compare); });
+}
+
+void add_culling(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand("culling", "intersections with each design relative to none, untimed, no trace kept");
+  add_scene_options(*command, parsed.culling.scene, true);
+  command->add_option("--designs", parsed.culling.designs, "list of designs")->capture_default_str();
+  command->add_flag("--markdown", parsed.culling.markdown, "print the rows of a Markdown table");
+  command->callback([&] { parsed.exit_code = culling_command(parsed.culling); });
+}
+
+void add_heatmap(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand("heatmap", "picture of intersections per pixel without and with culling");
+  add_scene_options(*command, parsed.heatmap.scene, false);
+  command->add_option("-o,--output", parsed.heatmap.output, "PNG file to write")->required();
+  command->add_option("--design", parsed.heatmap.design, "mask-test design of the right half")->capture_default_str();
+  command->add_option("--range", parsed.heatmap.range, "intersections at the bright end; 0: chosen from the scene")
+      ->capture_default_str();
+  command->callback([&] { parsed.exit_code = heatmap_command(parsed.heatmap); });
+}
+
+void add_trace(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand("trace", "look into trace files");
+  command->require_subcommand(1);
+  auto* info = command->add_subcommand("info", "how it was made, what it holds");
+  info->add_option("trace", parsed.trace.trace, "trace file")->required();
+  info->callback([&] { parsed.exit_code = trace_info_command(parsed.trace); });
+  auto* head = command->add_subcommand("head", "print rays with their hits and steps");
+  head->add_option("trace", parsed.trace.trace, "trace file")->required();
+  head->add_option("--first", parsed.trace.first_ray, "first ray")->capture_default_str();
+  head->add_option("--rays", parsed.trace.rays, "number of rays")->capture_default_str();
+  head->callback([&] { parsed.exit_code = trace_head_command(parsed.trace); });
+  auto* slice = command->add_subcommand("slice", "copy some rays into a trace of their own");
+  slice->add_option("trace", parsed.trace.trace, "trace file")->required();
+  slice->add_option("-o,--output", parsed.trace.output, "trace file to write")->required();
+  slice->add_option("--first", parsed.trace.first_ray, "first ray")->capture_default_str();
+  slice->add_option("--rays", parsed.trace.rays, "number of rays")->capture_default_str();
+  slice->callback([&] { parsed.exit_code = trace_slice_command(parsed.trace); });
+}
+
+void add_config(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand("config", "the unit's parameters");
+  command->require_subcommand(1);
+  auto* show = command->add_subcommand("show", "the resolved configuration as TOML, every parameter documented");
+  add_unit_options(*show, parsed.config);
+  show->add_flag("--plain", parsed.config_plain, "values only");
+  show->callback([&] { parsed.exit_code = config_show_command(parsed.config, parsed.config_plain); });
+}
+
+void add_bench(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand("bench", "speed of the unit on a trace, in every mode, exec and replay");
+  command->add_option("trace", parsed.bench.trace, "trace file")->required();
+  add_unit_options(*command, parsed.bench.unit);
+  command->add_option("--repeats", parsed.bench.repeats, "runs of each; the median is printed")->capture_default_str();
+  command->callback([&] { parsed.exit_code = bench_command(parsed.bench); });
+}
+
+std::string typed_command(int argc, const char* const* argv) {
+  std::string text = "ctusim";
+  for (int i = 1; i < argc; ++i) text += fmt::format(" {}", argv[i]);
+  return text;
+}
+
+constexpr int kBadUsage = 2;
+
+}  // namespace
+
+int run_cli(int argc, const char* const* argv) {
+  CLI::App app{"ctusim: cycle-level simulator of a culling traversal unit"};
+  app.set_version_flag("--version", tool_version());
+  app.require_subcommand(1);
+  Parsed parsed;
+  parsed.run.command = typed_command(argc, argv);
+  add_record(app, parsed);
+  add_run(app, parsed);
+  add_compare(app, parsed);
+  add_culling(app, parsed);
+  add_heatmap(app, parsed);
+  add_trace(app, parsed);
+  add_config(app, parsed);
+  add_bench(app, parsed);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : kBadUsage;
+  }
+  return parsed.exit_code;
+}
+
+}  // namespace ctu::sim

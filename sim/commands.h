@@ -1,0 +1,95 @@
+// The subcommands of `ctusim`: what each is given (filled by cli.cpp) and the function that does it. Each returns the
+// exit code 0 (done) or 1 (a check failed); mistakes of the user are Errors.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ctu::sim {
+
+/// Which rays, on which tree, with which masks: shared by every command that starts from a scene.
+struct SceneArgs {
+  std::vector<std::string> scenes;
+  double strand_thickness = 0;
+  std::string rays = "diffuse";
+  std::string size = "256x256";
+  std::uint32_t spp = 1;
+  std::uint32_t bounces = 4;
+  std::uint64_t seed = 1;
+  std::uint64_t count = 0;
+  bool skip_primary = false;
+  int resolution = 4;
+  int ray_resolution = 0;  ///< 0: as resolution
+  std::string levels = "inf";
+  int leaf_triangles = 4;
+  int threads = 0;         ///< 0: all
+};
+
+struct RecordArgs {
+  SceneArgs scene;
+  std::string output;
+  std::string designs = "none,mask-lut,comparators";
+};
+
+/// Which unit: shared by every command that runs it.
+struct UnitArgs {
+  std::string config_path;
+  std::vector<std::string> sets;
+  std::string mode = "batch";
+  std::string source = "replay";
+};
+
+struct RunArgs {
+  std::string trace;
+  UnitArgs unit;
+  std::string engine = "cycle";
+  std::string json_path;
+  std::string waves_path, window;
+  std::uint64_t first_ray = 0, rays = 0;  ///< rays 0: to the end
+  std::string command;                    ///< as it was typed
+};
+
+struct CompareArgs {
+  std::vector<std::string> traces;
+  UnitArgs unit;
+  std::string designs = "none,mask-lut,projection,comparators";
+};
+
+struct CullingArgs {
+  SceneArgs scene;
+  std::string designs = "ideal,mask-lut,comparators";
+  bool markdown = false;
+};
+
+struct HeatmapArgs {
+  SceneArgs scene;
+  std::string output;
+  std::string design = "mask-lut";
+  std::uint32_t range = 0;  ///< intersections at the bright end; 0: the 99th percentile without culling
+};
+
+struct TraceArgs {
+  std::string trace;
+  std::string output;                     ///< slice
+  std::uint64_t first_ray = 0, rays = 10;
+};
+
+struct BenchArgs {
+  std::string trace;
+  UnitArgs unit;
+  int repeats = 3;
+};
+
+int record_command(const RecordArgs& args);
+int run_command(const RunArgs& args);
+int compare_command(const CompareArgs& args);
+int culling_command(const CullingArgs& args);
+int heatmap_command(const HeatmapArgs& args);
+int trace_info_command(const TraceArgs& args);
+int trace_head_command(const TraceArgs& args);
+int trace_slice_command(const TraceArgs& args);
+int config_show_command(const UnitArgs& args, bool plain);
+int bench_command(const BenchArgs& args);
+
+}  // namespace ctu::sim
