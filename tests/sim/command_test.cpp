@@ -1,0 +1,180 @@
+// The program from the outside: a scene becomes a trace, the trace runs with every design, and whatever is wrong with
+// the input ends in one message and exit code 2.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/sim/program.h"
+
+namespace {
+
+using ctu::test::Outcome;
+using ctu::test::read_text;
+using ctu::test::run_program;
+using ctu::test::ScratchFolder;
+using ctu::test::write_text;
+using nlohmann::json;
+
+/// One small recorded trace for all tests of this program.
+class CommandTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new ScratchFolder;
+    const Outcome outcome = run_program(
+        folder_->path(), "record 'gen:hair-ball?strands=400&seed=7' -o hair.ctut --size 40x40 --rays diffuse --bounces 2");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static Outcome ctusim(const std::string& arguments) { return run_program(folder_->path(), arguments); }
+  static std::filesystem::path file(const std::string& name) { return folder_->path() / name; }
+  static json run_json(const std::string& arguments) {
+    const Outcome outcome = ctusim("run hair.ctut --json result.json " + arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return json::parse(read_text(file("result.json")));
+  }
+
+  /// The message names the place, says a remedy, and the exit code is that of a user's mistake.
+  static void expect_refused(const std::string& arguments, const std::string& named) {
+    const Outcome outcome = ctusim(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.out << outcome.err;
+    EXPECT_NE(outcome.err.find(named), std::string::npos) << arguments << "\n" << outcome.err;
+  }
+
+  static ScratchFolder* folder_;
+};
+ScratchFolder* CommandTest::folder_ = nullptr;
+
+TEST_F(CommandTest, every_design_returns_every_ray_with_the_expected_hit) {
+  for (const std::string design : {"none", "mask-lut", "projection", "comparators"}) {
+    const json result = run_json("--set mask_test.design=" + design);
+    EXPECT_EQ(result["wrong_hits"], 0) << design;
+    EXPECT_GE(result["rays"].get<int>(), 1600) << design;
+    EXPECT_GT(result["cycles"].get<long>(), 0) << design;
+  }
+}
+
+TEST_F(CommandTest, the_result_file_has_the_keys_that_tools_rely_on) {
+  const json result = run_json("");
+  for (const char* key : {"rays", "wrong_hits", "cycles", "intersections_per_ray", "cycles_per_ray", "culled_share",
+                          "simulated_cycles_per_second", "rays_per_second", "engine", "config_hash", "trace_hash"})
+    EXPECT_TRUE(result.contains(key)) << key;
+  for (const json& counter : result["counters"]) {
+    EXPECT_FALSE(counter["unit"].get<std::string>().empty()) << counter;
+    EXPECT_FALSE(counter["description"].get<std::string>().empty()) << counter;
+  }
+}
+
+TEST_F(CommandTest, every_cycle_of_every_stage_is_accounted_for) {
+  const json result = run_json("--set mask_test.design=projection");
+  ASSERT_GE(result["stages"].size(), 10u);
+  for (const json& stage : result["stages"]) {
+    long sum = stage["busy"].get<long>() + stage["idle"].get<long>();
+    for (const json& cause : stage["stalled"]) sum += cause["cycles"].get<long>();
+    EXPECT_EQ(sum, result["cycles"].get<long>()) << stage["stage"];
+  }
+}
+
+TEST_F(CommandTest, culling_saves_intersections_and_projection_equals_mask_lut) {
+  std::map<std::string, double> work;
+  for (const std::string design : {"none", "mask-lut", "projection", "comparators"})
+    work[design] = run_json("--set mask_test.design=" + design)["intersections_per_ray"];
+  EXPECT_LT(work["mask-lut"], work["none"]);
+  EXPECT_EQ(work["mask-lut"], work["projection"]);
+  EXPECT_LE(work["comparators"], work["mask-lut"]);
+}
+
+TEST_F(CommandTest, modes_and_sources_end_on_the_same_cycle_with_the_same_events) {
+  const json batch = run_json("--mode batch --source replay");
+  for (const std::string other : {"--mode cycle", "--mode pins", "--mode plain", "--mode batch --source exec"}) {
+    const json result = run_json(other);
+    EXPECT_EQ(result["cycles"], batch["cycles"]) << other;
+    EXPECT_EQ(result["event_log_hash"], batch["event_log_hash"]) << other;
+  }
+}
+
+TEST_F(CommandTest, the_reference_engine_counts_what_the_unit_counts) {
+  const json timed = run_json("");
+  const json untimed = run_json("--engine reference");
+  EXPECT_EQ(untimed["engine"], "reference");
+  EXPECT_EQ(untimed["wrong_hits"], 0);
+  EXPECT_EQ(untimed["intersections_per_ray"], timed["intersections_per_ray"]);
+  EXPECT_EQ(untimed["culled_share"], timed["culled_share"]);
+}
+
+TEST_F(CommandTest, a_shown_configuration_reads_back_as_itself) {
+  const Outcome shown = ctusim("config show --set contexts=8 --set mask_test.design=comparators");
+  ASSERT_EQ(shown.exit_code, 0) << shown.err;
+  write_text(file("shown.toml"), shown.out);
+  EXPECT_EQ(run_json("-c shown.toml")["config_hash"],
+            run_json("--set contexts=8 --set mask_test.design=comparators")["config_hash"]);
+}
+
+TEST_F(CommandTest, compare_prints_a_line_for_each_design) {
+  const Outcome outcome = ctusim("compare hair.ctut");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* design : {"none", "mask-lut", "projection", "comparators"})
+    EXPECT_NE(outcome.out.find(design), std::string::npos) << design;
+}
+
+TEST_F(CommandTest, a_heat_map_is_a_png) {
+  const Outcome outcome = ctusim("heatmap 'gen:hair-ball?strands=200' -o map.png --size 32x32");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(read_text(file("map.png")).substr(1, 3), "PNG");
+}
+
+TEST_F(CommandTest, a_waveform_covers_its_window) {
+  const Outcome outcome = ctusim("run hair.ctut --waves w.vcd --window 100:200");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string vcd = read_text(file("w.vcd"));
+  EXPECT_NE(vcd.find("$enddefinitions"), std::string::npos);
+  EXPECT_NE(vcd.find("#100"), std::string::npos);
+}
+
+TEST_F(CommandTest, a_slice_runs_as_a_trace_of_its_own) {
+  ASSERT_EQ(ctusim("trace slice hair.ctut -o part.ctut --first 100 --rays 50").exit_code, 0);
+  const Outcome outcome = ctusim("run part.ctut --json part.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(json::parse(read_text(file("part.json")))["rays"], 50);
+}
+
+TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
+  expect_refused("run missing.ctut", "missing.ctut");
+  expect_refused("run hair.ctut --set mask_test.desing=none", "mask_test.design");
+  expect_refused("run hair.ctut --set mask_test.design=projektion", "projection");
+  expect_refused("run hair.ctut --set contexts=0", "contexts");
+  expect_refused("run hair.ctut --set contexts=many", "contexts");
+  expect_refused("run hair.ctut --set contexts", "--set contexts");
+  expect_refused("run hair.ctut --window 5", "--window");
+  expect_refused("run hair.ctut --engine hardware", "--engine");
+  expect_refused("run hair.ctut --mode turbo", "--mode");
+  expect_refused("record nowhere.obj -o x.ctut", "nowhere.obj");
+  expect_refused("record gen:hair-bal -o x.ctut", "hair-ball");
+  expect_refused("record gen:hair-ball -o x.ctut --size big", "--size");
+  expect_refused("record gen:hair-ball -o x.ctut --r 9", "--r");
+  expect_refused("record gen:hair-ball -o x.ctut --l 7", "--l");
+  expect_refused("record gen:hair-ball -o no/such/folder/x.ctut", "no/such/folder");
+  expect_refused("record gen:hair-ball", "--output");
+  expect_refused("", "subcommand");
+}
+
+TEST_F(CommandTest, a_broken_configuration_is_refused_with_file_and_line) {
+  write_text(file("bad.toml"), "contexts = 16\n[mask_test]\ndesing = \"none\"\n");
+  expect_refused("run hair.ctut -c bad.toml", "bad.toml:3");
+  write_text(file("broken.toml"), "contexts = \n");
+  expect_refused("run hair.ctut -c broken.toml", "broken.toml:1");
+  expect_refused("run hair.ctut -c absent.toml", "absent.toml");
+}
+
+TEST_F(CommandTest, a_truncated_or_foreign_trace_is_refused) {
+  const std::string bytes = read_text(file("hair.ctut"));
+  for (const std::size_t keep : {std::size_t{0}, std::size_t{3}, bytes.size() / 2, bytes.size() - 1}) {
+    write_text(file("cut.ctut"), bytes.substr(0, keep));
+    expect_refused("run cut.ctut", "cut.ctut");
+  }
+  write_text(file("foreign.ctut"), "this is not a trace, but it is long enough to look like one" + std::string(4096, ' '));
+  expect_refused("run foreign.ctut", "foreign.ctut");
+}
+
+}  // namespace
