@@ -145,7 +145,7 @@ template <Round M> inline constexpr int kMode =
 inline constexpr __mmask16 kAll = 0xffff;
 
 inline __m512 widen(Float4 x) { return _mm512_castps128_ps512(std::bit_cast<__m128>(x)); }
-inline Float4 narrow(__m512 x) { return detail::canonical(std::bit_cast<Float4>(_mm512_castps512_ps128(x))); }
+inline Float4 narrow(__m512 x) { return detail::canonical(std::bit_cast<Float4>(_mm512_maskz_extractf32x4_ps(0xf, x, 0))); }
 
 template <Round M> inline Float4 add(Float4 a, Float4 b) {
   return narrow(_mm512_maskz_add_round_ps(kAll, widen(a), widen(b), kMode<M>));
