@@ -26,7 +26,7 @@ constexpr Design event_class(Design design) { return design == Design::Projectio
 
 inline constexpr int kMinResolution = 2, kMaxResolution = 8;
 inline constexpr int kMaxRayResolution = 16;
-inline constexpr int kUnlimitedLevels = 0;
+inline constexpr int kUnlimitedLevels = 0, kMaxLevels = 64;  // the paper measures L = 1..5
 
 struct MaskOptions {
   int resolution = 4;      ///< R: cells per axis of an object mask
@@ -34,6 +34,9 @@ struct MaskOptions {
   int levels = kUnlimitedLevels;  ///< L: object masks from nodes L levels below (paper 3.2.1); 0: from all triangles
   bool operator==(const MaskOptions&) const = default;
 };
+
+/// Throws ctu::Error when R, R_ray or L is outside what the tables and keys can hold.
+void validate(const MaskOptions& options);
 
 /// 64-bit words that R^3 bits need.
 constexpr int words_per_mask(int resolution) { return (resolution * resolution * resolution + 63) / 64; }
