@@ -1,0 +1,17 @@
+// Closed meshes whose every outside-to-inside ray must hit: nothing may leak through an edge or a vertex.
+#pragma once
+
+#include "model/scene/scene.h"
+
+namespace ctu::test {
+
+/// A sphere of radius 1 about the origin: an icosahedron, each triangle cut into four `levels` times (20 * 4^levels).
+scene::Mesh icosphere(int levels);
+
+/// The cube [-1, 1]^3, each face a lattice of n x n cells of two triangles: flat boxes, coordinates on a lattice.
+scene::Mesh lattice_cube(int n);
+
+/// Every vertex moved by `offset`, rounded once.
+scene::Mesh moved(scene::Mesh mesh, const Vec3& offset);
+
+}  // namespace ctu::test
