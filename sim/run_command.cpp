@@ -1,0 +1,133 @@
+// `ctusim run`, `ctusim compare`, `ctusim bench` and `ctusim config show`: everything that runs the unit.
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "model/base/error.h"
+#include "sim/commands.h"
+#include "sim/config_file.h"
+#include "sim/scene_args.h"
+#include "sim/unit_runner.h"
+
+namespace ctu::sim {
+namespace {
+
+void check_engine(const std::string& engine) {
+  if (engine == "cycle" || engine == "reference") return;
+  throw Error("--engine", fmt::format("there is no engine \"{}\" in this version", engine), "give cycle or reference");
+}
+
+/// "A:B" into the options.
+void parse_window(const std::string& window, unit::RunOptions& options) {
+  const auto colon = window.find(':');
+  const auto number = [&](std::string_view text, std::uint64_t& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() && !text.empty();
+  };
+  if (colon == std::string::npos || !number(std::string_view(window).substr(0, colon), options.waves_first) ||
+      !number(std::string_view(window).substr(colon + 1), options.waves_last) || options.waves_first > options.waves_last)
+    throw Error("--window", fmt::format("\"{}\" is not a range of cycles", window), "write it as in --window 1000:2000");
+}
+
+unit::RunOptions run_options(const UnitArgs& args) {
+  unit::RunOptions options;
+  options.mode = parse_mode(args.mode);
+  options.source = parse_source(args.source);
+  return options;
+}
+
+void print_compare_header() {
+  fmt::print("{:<22}{:<13}{:>9}{:>12}{:>9}{:>9}{:>7}{:>12}{:>11}\n", "scene", "mask test", "rays", "inters./ray", "cycles/ray",
+             "culled", "wrong", "cycles/s", "rays/s");
+}
+
+void print_compare_row(const RunRecord& r) {
+  const auto& counts = r.result.counts;
+  fmt::print("{:<22}{:<13}{:>9}{:>12.3f}{:>10.3f}{:>7.1f} %{:>7}{:>12.3g}{:>11.3g}\n", r.scene.substr(r.scene.find_last_of('/') + 1),
+             r.design, r.result.rays, counts.intersections_per_ray(), r.cycles_per_ray(), 100 * counts.culled_share(),
+             r.result.wrong_hits, r.cycles_per_second(), r.rays_per_second());
+  std::fflush(stdout);
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+int run_command(const RunArgs& args) {
+  RunPlan plan;
+  check_engine(args.engine);
+  plan.engine = args.engine;
+  plan.config = load_config(args.unit.config_path, args.unit.sets);
+  plan.options = run_options(args.unit);
+  plan.options.waves_path = args.waves_path;
+  if (!args.window.empty()) parse_window(args.window, plan.options);
+  if (!args.waves_path.empty() && args.window.empty())
+    throw Error("--waves", "no window of cycles", "add --window A:B; a waveform of a whole run is gigabytes");
+  const LoadedTrace trace(args.trace);
+  plan.range = trace.range(args.first_ray, args.rays);
+  RunRecord record = run_plan(trace, plan);
+  record.command = args.command;
+  print_record(record);
+  if (!args.json_path.empty()) write_json(record, args.json_path);
+  return record.result.wrong_hits == 0 ? 0 : 1;
+}
+
+int compare_command(const CompareArgs& args) {
+  RunPlan plan;
+  plan.config = load_config(args.unit.config_path, args.unit.sets);
+  plan.options = run_options(args.unit);
+  const auto designs = parse_designs(args.designs);
+  if (std::find(designs.begin(), designs.end(), cull::Design::Ideal) != designs.end())
+    throw Error("--designs", "ideal culling is no unit", "`ctusim culling` counts it");
+  bool all_right = true;
+  print_compare_header();
+  for (const std::string& path : args.traces) {
+    const LoadedTrace trace(path);
+    plan.range = trace.range(0, 0);
+    for (const cull::Design design : designs) {
+      plan.config.mask_test.design = design;
+      const RunRecord record = run_plan(trace, plan);
+      print_compare_row(record);
+      all_right &= record.result.wrong_hits == 0;
+    }
+  }
+  return all_right ? 0 : 1;
+}
+
+int bench_command(const BenchArgs& args) {
+  if (args.repeats < 1) throw Error("--repeats", "nothing to do", "give 1 or more");
+  RunPlan plan;
+  plan.config = load_config(args.unit.config_path, args.unit.sets);
+  const LoadedTrace trace(args.trace);
+  plan.range = trace.range(0, 0);
+  fmt::print("{:<8}{:<9}{:>12}{:>14}{:>14}   median of {}\n", "mode", "source", "cycles", "Mcycles/s", "rays/s", args.repeats);
+  for (const char* source : {"replay", "exec"}) {
+    for (const char* mode : {"plain", "batch", "cycle", "pins"}) {
+      plan.options.mode = parse_mode(mode);
+      plan.options.source = parse_source(source);
+      std::vector<double> cycles_per_second, rays_per_second;
+      std::uint64_t cycles = 0;
+      for (int i = 0; i < args.repeats; ++i) {
+        const RunRecord record = run_plan(trace, plan);
+        cycles = record.result.cycles;
+        cycles_per_second.push_back(record.cycles_per_second());
+        rays_per_second.push_back(record.rays_per_second());
+      }
+      fmt::print("{:<8}{:<9}{:>12}{:>14.2f}{:>14.0f}\n", mode, source, cycles, median(cycles_per_second) / 1e6, median(rays_per_second));
+      std::fflush(stdout);
+    }
+  }
+  return 0;
+}
+
+int config_show_command(const UnitArgs& args, bool plain) {
+  fmt::print("{}", config_to_toml(load_config(args.config_path, args.sets), !plain));
+  return 0;
+}
+
+}  // namespace ctu::sim

@@ -1,0 +1,103 @@
+#include "sim/scene_args.h"
+
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "model/base/error.h"
+#include "model/base/nearest.h"
+#include "model/base/parallel.h"
+#include "model/scene/load.h"
+
+namespace ctu::sim {
+namespace {
+
+/// The whole text as a number, or an Error.
+template <class Number>
+Number parse_number(std::string_view text, const std::string& option, const std::string& remedy) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw Error(option, fmt::format("\"{}\" is not a number", text), remedy);
+  return number;
+}
+
+void parse_size(const std::string& size, traces::RayOptions& rays) {
+  const std::string remedy = "write it as in --size 960x540";
+  const auto x = size.find('x');
+  if (x == std::string::npos) throw Error("--size", fmt::format("\"{}\" has no \"x\"", size), remedy);
+  rays.width = parse_number<std::uint32_t>(std::string_view(size).substr(0, x), "--size", remedy);
+  rays.height = parse_number<std::uint32_t>(std::string_view(size).substr(x + 1), "--size", remedy);
+}
+
+traces::RayOptions::Rays parse_rays(const std::string& name) {
+  if (const auto kind = traces::rays_from_string(name)) return *kind;
+  const std::vector<std::string> known{"primary", "diffuse", "shadow", "ao", "random"};
+  throw Error("--rays", fmt::format("unknown kind \"{}\"", name), fmt::format("did you mean \"{}\"?", nearest_name(name, known)));
+}
+
+int parse_levels(const std::string& levels) {
+  if (levels == "inf") return cull::kUnlimitedLevels;
+  const int number = parse_number<int>(levels, "--l", "give 1 to 5, or inf");
+  if (number < 1 || number > 5) throw Error("--l", fmt::format("{} is out of range", number), "give 1 to 5, or inf");
+  return number;
+}
+
+cull::MaskOptions parse_masks(const SceneArgs& args) {
+  cull::MaskOptions masks;
+  masks.resolution = args.resolution;
+  masks.ray_resolution = args.ray_resolution == 0 ? args.resolution : args.ray_resolution;
+  masks.levels = parse_levels(args.levels);
+  const auto check = [](const char* option, int value, int maximum) {
+    if (value < cull::kMinResolution || value > maximum)
+      throw Error(option, fmt::format("{} is out of range", value), fmt::format("give {} to {}", cull::kMinResolution, maximum));
+  };
+  check("--r", masks.resolution, cull::kMaxResolution);
+  check("--r-ray", masks.ray_resolution, cull::kMaxRayResolution);
+  return masks;
+}
+
+}  // namespace
+
+std::vector<cull::Design> parse_designs(const std::string& list) {
+  std::vector<cull::Design> designs;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t comma = std::min(list.find(',', begin), list.size());
+    const std::string name = list.substr(begin, comma - begin);
+    const auto design = cull::design_from_string(name);
+    if (!design) {
+      const std::vector<std::string> known{"none", "ideal", "mask-lut", "projection", "comparators"};
+      throw Error("--designs", fmt::format("unknown design \"{}\"", name),
+                  fmt::format("did you mean \"{}\"? Known: {}", nearest_name(name, known), "none, ideal, mask-lut, projection, comparators"));
+    }
+    designs.push_back(*design);
+    begin = comma + 1;
+  }
+  return designs;
+}
+
+traces::RecordOptions record_options(const SceneArgs& args) {
+  traces::RecordOptions options;
+  options.rays.kind = parse_rays(args.rays);
+  parse_size(args.size, options.rays);
+  options.rays.samples_per_pixel = args.spp;
+  options.rays.bounces = args.bounces;
+  options.rays.seed = args.seed;
+  options.rays.count = args.count;
+  options.rays.skip_primary = args.skip_primary;
+  options.masks = parse_masks(args);
+  options.build.max_leaf_triangles = args.leaf_triangles;
+  options.threads = args.threads > 0 ? args.threads : available_threads();
+  options.build.threads = options.threads;
+  return options;
+}
+
+scene::Scene load_scene(const SceneArgs& args, const std::string& name) {
+  scene::LoadOptions options;
+  options.strand_thickness = static_cast<float>(args.strand_thickness);
+  scene::Scene scene = scene::load(name, options);
+  for (const std::string& warning : scene.report.warnings) fmt::print(stderr, "{}: {}\n", scene.name, warning);
+  return scene;
+}
+
+}  // namespace ctu::sim

@@ -1,0 +1,23 @@
+// From the words of the command line to the options of the recorder.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/cull/options.h"
+#include "model/scene/scene.h"
+#include "sim/commands.h"
+#include "traces/recorder.h"
+
+namespace ctu::sim {
+
+/// "none,mask-lut" as designs; Error on an unknown one, naming the nearest.
+std::vector<cull::Design> parse_designs(const std::string& list);
+
+/// Everything of SceneArgs but the scenes' names; Error on a word or number that is not allowed.
+traces::RecordOptions record_options(const SceneArgs& args);
+
+/// Loads one scene and prints its warnings to stderr.
+scene::Scene load_scene(const SceneArgs& args, const std::string& name);
+
+}  // namespace ctu::sim

@@ -1,0 +1,93 @@
+#include "sim/unit_runner.h"
+
+#include <chrono>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "model/base/error.h"
+#include "model/base/nearest.h"
+#include "model/reference/traversal.h"
+#include "sim/config_file.h"
+#include "sim/progress.h"
+
+namespace ctu::sim {
+namespace {
+
+template <class Value>
+Value parse_choice(const std::string& option, const std::string& name, const std::vector<std::pair<std::string, Value>>& choices) {
+  std::vector<std::string> known;
+  for (const auto& [text, value] : choices) {
+    if (text == name) return value;
+    known.push_back(text);
+  }
+  throw Error(option, fmt::format("unknown value \"{}\"", name), fmt::format("did you mean \"{}\"?", nearest_name(name, known)));
+}
+
+const std::vector<std::pair<std::string, unit::Mode>> kModes = {
+    {"plain", unit::Mode::Plain}, {"batch", unit::Mode::Batch}, {"cycle", unit::Mode::Cycle}, {"pins", unit::Mode::Pins}};
+const std::vector<std::pair<std::string, unit::Source>> kSources = {{"replay", unit::Source::Replay}, {"exec", unit::Source::Exec}};
+
+template <class Value>
+std::string name_of(Value value, const std::vector<std::pair<std::string, Value>>& choices) {
+  for (const auto& [text, candidate] : choices)
+    if (candidate == value) return text;
+  return "";
+}
+
+/// The untimed traversal over the same rays: every hit checked, everything counted.
+pipeline::UnitResult run_reference(const LoadedTrace& trace, const cull::MaskTester& tester, traces::RayRange range) {
+  const reference::Traversal traversal(trace.bvh(), &trace.masks(), tester);
+  traces::TraceFeed feed(trace.reader(), range);
+  pipeline::UnitResult result;
+  constexpr std::size_t kListedWrongHits = 16;
+  while (const auto block = feed.next()) {
+    reference::StepList steps;
+    for (std::size_t i = 0; i < block->rays.size(); ++i) {
+      const intersect::Hit hit = traversal.trace(block->rays[i], &steps);
+      ++result.rays;
+      if (same_bits(hit, block->expected[i])) continue;
+      ++result.wrong_hits;
+      if (result.first_wrong.size() < kListedWrongHits)
+        result.first_wrong.push_back({block->first_ray + i, block->expected[i], hit});
+    }
+    result.counts += reference::count_steps(steps, 0, steps.rays());
+  }
+  return result;
+}
+
+pipeline::UnitResult run_cycle(const LoadedTrace& trace, const cull::MaskTester& tester, const RunPlan& plan) {
+  const accel::Image image = trace.unit_image(tester.design());
+  traces::TraceFeed feed = plan.options.source == unit::Source::Replay
+                               ? traces::TraceFeed(trace.reader(), plan.range, trace.bvh(), &trace.masks(), tester)
+                               : traces::TraceFeed(trace.reader(), plan.range);
+  Progress bar("running", feed.total_rays(), "rays");
+  unit::RunOptions options = plan.options;
+  options.progress = [&](std::uint64_t rays) { bar.update(rays); };
+  return unit::run(plan.config, {image, tester, feed}, options);
+}
+
+}  // namespace
+
+unit::Mode parse_mode(const std::string& name) { return parse_choice("--mode", name, kModes); }
+unit::Source parse_source(const std::string& name) { return parse_choice("--source", name, kSources); }
+
+RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
+  const cull::MaskTester tester(plan.config.mask_test.design, trace.mask_options());
+  RunRecord record;
+  record.engine = plan.engine;
+  record.mode = name_of(plan.options.mode, kModes);
+  record.source = name_of(plan.options.source, kSources);
+  record.trace_path = trace.reader().path();
+  record.trace_hash = trace.reader().hash();
+  record.scene = trace.reader().manifest().scene.name;
+  record.config = plan.config;
+  record.config_hash = config_hash(plan.config);
+  record.design = cull::to_string(plan.config.mask_test.design);
+  const auto start = std::chrono::steady_clock::now();
+  record.result = plan.engine == "reference" ? run_reference(trace, tester, plan.range) : run_cycle(trace, tester, plan);
+  record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return record;
+}
+
+}  // namespace ctu::sim

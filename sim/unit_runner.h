@@ -1,0 +1,27 @@
+// One run of the unit on a loaded trace, from words of the command line to a RunRecord.
+#pragma once
+
+#include <string>
+
+#include "model/unit/run.h"
+#include "sim/commands.h"
+#include "sim/loaded_trace.h"
+#include "sim/run_record.h"
+
+namespace ctu::sim {
+
+/// "plain", "batch", "cycle", "pins"; "replay", "exec". Error on anything else.
+unit::Mode parse_mode(const std::string& name);
+unit::Source parse_source(const std::string& name);
+
+struct RunPlan {
+  std::string engine = "cycle";  ///< or "reference"
+  pipeline::UnitConfig config;
+  unit::RunOptions options;
+  traces::RayRange range;
+};
+
+/// Runs and times it; loading and table building are not part of the time.
+RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan);
+
+}  // namespace ctu::sim
