@@ -39,6 +39,13 @@ bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return uy * vz == uz * vy && uz * vx == ux * vz && ux * vy == uy * vx;
 }
 
+// At least doubles: scenes of many small parts would be copied at each of them otherwise.
+template <class Item>
+void grow(std::vector<Item>& items, std::uint64_t more) {
+  const std::uint64_t needed = items.size() + more;
+  if (needed > items.capacity()) items.reserve(std::max<std::uint64_t>(needed, 2 * items.capacity()));
+}
+
 void measure(Scene& scene) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   scene.lower = {kInfinity, kInfinity, kInfinity};
@@ -70,14 +77,17 @@ void Draft::warn(const std::string& text) {
 
 void Draft::add_format(const std::string& format) {
   if (report.format.find(format) != std::string::npos) return;
-  report.format += report.format.empty() ? format : "+" + format;
+  if (!report.format.empty()) report.format += '+';
+  report.format += format;
 }
 
-void Draft::reserve_more(const std::string& where, std::uint64_t more_vertices, std::uint64_t more_triangles) {
+void Draft::require_room(const Place& where, std::uint64_t more_vertices, std::uint64_t more_triangles) {
   if (more_vertices > kMostVertices - mesh.vertices.size() || more_triangles > kMostTriangles - mesh.triangles.size())
-    throw Error(where,
+    throw Error(where.text(),
                 fmt::format("brings the scene to more than {} triangles or {} vertices", kMostTriangles, kMostVertices),
                 "load a part of the scene");
+  grow(mesh.vertices, more_vertices);
+  grow(mesh.triangles, more_triangles);
 }
 
 Scene finish(Draft&& draft, const std::string& name, const std::string& where) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/scene/load.h"
+#include "model/scene/place.h"
 #include "model/scene/scene.h"
 
 namespace ctu::scene {
@@ -26,8 +27,9 @@ struct Draft {
   void warn(const std::string& text);
   /// Notes the format of one more file; several formats are joined by '+'.
   void add_format(const std::string& format);
-  /// Throws Error naming `where` if that many more do not fit a scene. Call before allocating.
-  void reserve_more(const std::string& where, std::uint64_t vertices, std::uint64_t triangles);
+  /// Makes room for that many more, which a reader knows to be in its file; throws Error at `where` if the scene would
+  /// get too large.
+  void require_room(const Place& where, std::uint64_t vertices, std::uint64_t triangles);
 
   std::vector<std::pair<std::string, std::uint64_t>> warnings;
 };

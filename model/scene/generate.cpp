@@ -53,7 +53,7 @@ void hair_ball(Parameters& p, const std::string& where, Draft& draft) {
   const double radius = p.real("radius", 1, 0, kLargest), length = p.real("length", 1, 0, kLargest);
   const double spread = p.real("spread", 0.15, 0, 10);
   p.expect_all_used();
-  draft.reserve_more(where, 2 * s.strands * (s.segments + 1), 2 * s.strands * s.segments);
+  draft.require_room(where, 2 * s.strands * (s.segments + 1), 2 * s.strands * s.segments);
   for (std::uint64_t n = 0; n < s.strands; ++n) {
     Random random(s.seed, n);
     const Vector64 outward = random.direction();
@@ -66,7 +66,7 @@ void curly_hair(Parameters& p, const std::string& where, Draft& draft) {
   const double radius = p.real("radius", 1, 0, kLargest), length = p.real("length", 1, 0, kLargest);
   const double curls = p.real("curls", 4, 0, 1000), curl_radius = p.real("curl-radius", 0.05, 0, kLargest);
   p.expect_all_used();
-  draft.reserve_more(where, 2 * s.strands * (s.segments + 1), 2 * s.strands * s.segments);
+  draft.require_room(where, 2 * s.strands * (s.segments + 1), 2 * s.strands * s.segments);
   for (std::uint64_t n = 0; n < s.strands; ++n) {
     Random random(s.seed, n);
     const Vector64 outward = random.direction();
@@ -88,7 +88,7 @@ void straight_hair(Parameters& p, const std::string& where, Draft& draft) {
   const double length = p.real("length", 2, 0, kLargest), tilt = p.real("tilt", 35, -360, 360);
   const double spread = p.real("spread", 0.05, 0, 10);
   p.expect_all_used();
-  draft.reserve_more(where, 2 * s.strands * (s.segments + 1), 2 * s.strands * s.segments);
+  draft.require_room(where, 2 * s.strands * (s.segments + 1), 2 * s.strands * s.segments);
   const Turn lean = turn(tilt / 360);
   // Leans toward (0.8, 0.6) of the ground, along no axis.
   const Vector64 along{0.8 * lean.sine, 0.6 * lean.sine, lean.cosine};
@@ -115,7 +115,7 @@ void tilted_quads(Parameters& p, const std::string& where, Draft& draft) {
   const std::uint64_t quads = p.whole("quads", 2000, 1, kMostItems), seed = p.whole("seed", 1, 0, kAnySeed);
   const double size = p.real("size", 0.1, 0, kLargest), aspect = p.real("aspect", 8, 1, kLargest);
   p.expect_all_used();
-  draft.reserve_more(where, 4 * quads, 2 * quads);
+  draft.require_room(where, 4 * quads, 2 * quads);
   for (std::uint64_t n = 0; n < quads; ++n) {
     Random random(seed, n);
     const Vector64 center{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
@@ -131,7 +131,7 @@ void foliage(Parameters& p, const std::string& where, Draft& draft) {
   const std::uint64_t seed = p.whole("seed", 1, 0, kAnySeed);
   const double size = p.real("size", 0.06, 0, kLargest), aspect = p.real("aspect", 2.5, 1, kLargest);
   p.expect_all_used();
-  draft.reserve_more(where, 4 * twigs * cards, 2 * twigs * cards);
+  draft.require_room(where, 4 * twigs * cards, 2 * twigs * cards);
   for (std::uint64_t n = 0; n < twigs; ++n) {
     Random random(seed, n);
     const Vector64 place = random.in_ball();
@@ -168,7 +168,7 @@ void tetrahedron(const Vec3& center, float half, std::uint64_t depth, Mesh& mesh
 void tetra(Parameters& p, const std::string& where, Draft& draft) {
   const std::uint64_t depth = p.whole("depth", 6, 1, 12);
   p.expect_all_used();
-  draft.reserve_more(where, std::uint64_t{1} << (2 * depth), std::uint64_t{1} << (2 * depth));
+  draft.require_room(where, std::uint64_t{1} << (2 * depth), std::uint64_t{1} << (2 * depth));
   tetrahedron({0, 0, 0}, 1, depth, draft.mesh);
 }
 

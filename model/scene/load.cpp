@@ -2,14 +2,19 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <string_view>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "model/base/error.h"
 #include "model/scene/draft.h"
 #include "model/scene/generate.h"
 #include "model/scene/readers.h"
+#include "model/scene/resolve.h"
 #include "model/scene/source_file.h"
+#include "model/scene/text_cursor.h"
 
 namespace ctu::scene {
 namespace {
@@ -22,16 +27,55 @@ struct Format {
 };
 
 constexpr Format kFormats[] = {
-    {"obj", read_obj},
-    {"ply", read_ply},
+    {"obj", read_obj},   {"ply", read_ply}, {"gltf", read_gltf}, {"glb", read_glb}, {"pbrt", read_pbrt},
+    {"hair", read_hair}, {"tfx", read_tfx}, {"nff", read_nff},   {"scn", read_luxcore},
 };
 
-void read_file(const std::filesystem::path& path, Draft& draft) {
+const Format& format_of(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   for (const Format& format : kFormats)
-    if (extension == format.extension) return format.read(read_source(path), draft);
+    if (extension == format.extension) return format;
   throw Error(path.string(), fmt::format("'.{}' is no scene format we know", extension),
-              "name a file of .obj .ply .gltf .glb .pbrt .scn .hair .tfx .nff .list, or gen:NAME");
+              "name a file of .obj .ply .gltf .glb .pbrt .scn .hair .tfx .nff (.zst behind it or not) or .list, or gen:NAME");
+}
+
+void read_list(const std::filesystem::path& path, Draft& draft) {
+  const SourceFile list = read_source(path);
+  TextCursor text(list, '#');
+  while (!text.at_end()) {
+    const std::size_t offset = text.offset();
+    std::string line(text.rest_of_line());
+    line.resize(line.find_last_not_of(" \t") + 1);
+    const bool camera_only = line.starts_with("camera ");
+    if (camera_only) line.erase(0, line.find_first_not_of(' ', 7));
+    const Format& format = format_of(line);
+    if (camera_only && format.read != read_pbrt)
+      throw Error(text.where(offset).text(), "only a .pbrt can be read for its camera alone", "leave out the word camera");
+    const auto found = resolve(list.folder, line, text.where(offset), draft);
+    if (!found) continue;
+    SourceFile file = read_source(*found);
+    file.folder = list.folder;
+    camera_only ? read_pbrt_camera(file, draft) : format.read(file, draft);
+  }
+}
+
+void read_file(const std::filesystem::path& path, Draft& draft) {
+  if (extension_of(path) == "list") return read_list(path, draft);
+  const Format& format = format_of(path);
+  format.read(read_source(path), draft);
+}
+
+// One path, or several joined by commas. A file whose own name has a comma is taken as it is.
+std::vector<std::string> parts_of(const std::string& name) {
+  std::error_code unreadable;
+  if (std::filesystem::exists(name, unreadable)) return {name};
+  std::vector<std::string> parts;
+  for (std::size_t first = 0; first <= name.size();) {
+    const std::size_t comma = std::min(name.find(',', first), name.size());
+    parts.push_back(name.substr(first, comma - first));
+    first = comma + 1;
+  }
+  return parts;
 }
 
 }  // namespace
@@ -43,8 +87,13 @@ Scene load(const std::string& name, const LoadOptions& options) {
     generate(name, draft);
     return finish(std::move(draft), name, name);
   }
-  read_file(name, draft);
-  return finish(std::move(draft), stem_of(name), name);
+  std::string title;
+  for (const std::string& part : parts_of(name)) {
+    read_file(part, draft);
+    if (!title.empty()) title += '+';
+    title += stem_of(part);
+  }
+  return finish(std::move(draft), title, name);
 }
 
 }  // namespace ctu::scene

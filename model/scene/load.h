@@ -11,9 +11,17 @@ struct LoadOptions {
   float strand_thickness = 0;  ///< ribbon width in scene units; 0: from the file, or a default by its size
 };
 
-/// `name` is a path (.obj .ply .gltf .glb .pbrt .scn .hair .tfx .nff, each also with .zst behind it), or a generator as in
-/// "gen:hair-ball?strands=2000&seed=1". Throws Error on anything that is not a scene: file, element, remedy.
-/// The result has at least one triangle, all indices in range, all vertices finite.
+/// `name` is one of
+///  - a path (.obj .ply .gltf .glb .pbrt .scn .hair .tfx .nff, each also with .zst behind it),
+///  - several paths joined by commas: one scene of all their triangles, in that order,
+///  - a .list: a text file with one such path a line, relative to the list's own folder, where the files named inside
+///    are looked for too; "camera NAME.pbrt" takes only the camera of that file; '#' starts a comment,
+///  - a generator as in "gen:hair-ball?strands=2000&seed=1" (generate.h).
+/// A file that a scene names is looked for in the scene's folder and the one above; one that is not there is an Error
+/// unless a MISSING.txt beside the scene lists it.
+///
+/// Throws Error on anything that is not a scene: file, element, remedy. The result has at least one triangle, all
+/// indices in range, all vertices finite. Triangles without area are kept and counted.
 Scene load(const std::string& name, const LoadOptions& options = {});
 
 }  // namespace ctu::scene

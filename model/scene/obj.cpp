@@ -100,7 +100,7 @@ class ObjCheck {
 void append_shape(const tinyobj::shape_t& shape, std::uint64_t base, std::uint64_t vertices, const std::string& where,
                   Draft& draft) {
   const auto& indices = shape.mesh.indices;
-  draft.reserve_more(where, 0, indices.size() / 3);
+  draft.require_room(where, 0, indices.size() / 3);
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
     std::array<std::uint32_t, 3> triangle{};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -127,8 +127,7 @@ void read_obj(const SourceFile& file, Draft& draft) {
 
   const auto& coordinates = reader.GetAttrib().vertices;
   const std::uint64_t base = draft.mesh.vertices.size(), vertices = coordinates.size() / 3;
-  draft.reserve_more(file.path, vertices, 0);
-  draft.mesh.vertices.reserve(base + vertices);
+  draft.require_room(file.path, vertices, 0);
   for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
     draft.mesh.vertices.push_back({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
   for (const tinyobj::shape_t& shape : reader.GetShapes()) append_shape(shape, base, vertices, file.path, draft);

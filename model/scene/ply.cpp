@@ -130,7 +130,7 @@ class AsciiBody {
   void skip(Scalar, std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) text_.word("a property");
   }
-  std::string where() const { return text_.where(); }
+  std::string where() const { return text_.where().text(); }
   /// A character and the space behind it.
   static std::uint64_t least_bytes(Scalar) { return 2; }
   std::uint64_t bytes_left() const { return text_.bytes_left() + 1; }
@@ -218,8 +218,7 @@ void read_vertices(Body& body, const SourceFile& file, const Element& element, D
     if (axes.back() >= 0) seen |= 1 << axes.back();
   }
   if (seen != 7) throw Error(fmt::format("{}: element vertex", file.path), "has no x, y and z", kDamaged);
-  draft.reserve_more(file.path, element.count, 0);
-  draft.mesh.vertices.reserve(draft.mesh.vertices.size() + element.count);
+  draft.require_room(file.path, element.count, 0);
   for (std::uint64_t i = 0; i < element.count; ++i) {
     Vec3 vertex;
     for (std::size_t p = 0; p < axes.size(); ++p) {
@@ -260,14 +259,14 @@ void read_faces(Body& body, const SourceFile& file, const Element& element, std:
   if (list == element.properties.size() || !element.properties[list].is_list)
     throw Error(fmt::format("{}: element face", file.path), "has no list vertex_indices", kDamaged);
   const std::uint64_t vertices = draft.mesh.vertices.size() - base;
-  draft.mesh.triangles.reserve(draft.mesh.triangles.size() + element.count);
+  draft.require_room(file.path, 0, element.count);
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (std::size_t p = 0; p < element.properties.size(); ++p)
       if (p == list)
         read_polygon(body, element.properties[p], i, base, vertices, draft);
       else
         skip_property(body, element.properties[p]);
-    if (draft.mesh.triangles.size() > kMostTriangles) draft.reserve_more(file.path, 0, 1);
+    if (draft.mesh.triangles.size() > kMostTriangles) draft.require_room(file.path, 0, 1);
   }
 }
 
@@ -297,6 +296,10 @@ void read_body(Body body, const SourceFile& file, const Header& header, Draft& d
 
 void read_ply(const SourceFile& file, Draft& draft) {
   draft.add_format("ply");
+  append_ply(file, draft);
+}
+
+void append_ply(const SourceFile& file, Draft& draft) {
   const Header header = read_header(file);
   if (header.encoding == Encoding::kAscii)
     read_body(AsciiBody(file, header), file, header, draft);

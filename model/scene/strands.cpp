@@ -19,7 +19,7 @@ Vector64 direction_at(const std::vector<StrandPoint>& points, std::size_t i, con
 
 void append_ribbon(const std::vector<StrandPoint>& points, std::uint64_t number, const std::string& where,
                    Draft& draft) {
-  draft.reserve_more(where, 2 * points.size(), 2 * (points.size() - 1));
+  draft.require_room(where, 2 * points.size(), 2 * (points.size() - 1));
   auto& [vertices, triangles] = draft.mesh;
   Vector64 along = direction_at(points, 0, {0, 0, 1});
   const Turn start = turn(Random(kRibbonSeed, number).unit());

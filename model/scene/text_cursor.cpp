@@ -98,13 +98,8 @@ std::string_view TextCursor::rest_of_line() {
   return std::string_view(text).substr(first, last - first);
 }
 
-std::string TextCursor::where(std::size_t offset) const {
-  const auto end = file_.bytes.begin() + static_cast<std::ptrdiff_t>(std::min(offset, file_.bytes.size()));
-  return fmt::format("{}:{}", file_.path, 1 + std::count(file_.bytes.begin(), end, '\n'));
-}
-
 void TextCursor::fail(const std::string& problem, const std::string& remedy) const {
-  throw Error(where(), problem, remedy);
+  throw Error(where().text(), problem, remedy);
 }
 
 }  // namespace ctu::scene

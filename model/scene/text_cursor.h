@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "model/scene/place.h"
 #include "model/scene/source_file.h"
 
 namespace ctu::scene {
@@ -33,9 +34,9 @@ class TextCursor {
 
   std::size_t offset() const { return offset_; }
   std::size_t bytes_left() const { return file_.bytes.size() - offset_; }
-  /// "file:line" of the word taken last.
-  std::string where() const { return where(word_offset_); }
-  std::string where(std::size_t offset) const;
+  /// The word taken last.
+  Place where() const { return where(word_offset_); }
+  Place where(std::size_t offset) const { return {file_, offset}; }
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
 
  private:
