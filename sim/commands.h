@@ -12,7 +12,7 @@ namespace ctu::sim {
 struct SceneArgs {
   std::vector<std::string> scenes;
   double strand_thickness = 0;
-  std::string rays = "diffuse";
+  std::string rays = "diffuse";  ///< `culling` also takes "all"
   std::string size = "256x256";
   std::uint32_t spp = 1;
   std::uint32_t bounces = 4;

@@ -1,0 +1,103 @@
+// `ctusim culling`: intersections with each design relative to none, and every hit that changes.
+#include <cstdio>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "sim/commands.h"
+#include "sim/culling_survey.h"
+#include "sim/progress.h"
+#include "sim/scene_args.h"
+
+namespace ctu::sim {
+namespace {
+
+/// "a/b/bunny.ply.zst" -> "bunny".
+std::string short_name(const std::string& name) {
+  const std::string file = name.substr(name.find_last_of('/') + 1);
+  return file.rfind("gen:", 0) == 0 ? file : file.substr(0, file.find('.'));
+}
+
+void print_header(const std::vector<DesignSurvey>& rows, bool markdown) {
+  std::string names, rule;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    names += fmt::format(markdown ? " {} |" : "{:>13}", to_string(rows[i].design));
+    rule += " ---: |";
+  }
+  if (markdown)
+    fmt::print("| scene | rays | number of rays | intersections/ray |{} uncertain | lost hits | near misses |\n"
+               "| --- | --- | ---: | ---: |{} ---: | ---: | ---: |\n", names, rule);
+  else
+    fmt::print("{:<22}{:<9}{:>10}{:>13}{}{:>11}{:>7}{:>7}\n", "scene", "rays", "number", "inters./ray", names, "uncertain", "lost", "near");
+}
+
+/// A share of box hits, in parts per million of them.
+double per_million(std::uint64_t part, std::uint64_t whole) { return whole == 0 ? 0 : 1e6 * double(part) / double(whole); }
+
+void print_row(const std::string& scene, const std::string& rays, const Survey& survey, bool markdown) {
+  const double base = double(survey.designs[0].counts.intersections());
+  std::string ratios;
+  std::uint64_t lost = 0, near = 0;
+  double uncertain = 0;
+  for (std::size_t i = 1; i < survey.designs.size(); ++i) {
+    const DesignSurvey& row = survey.designs[i];
+    ratios += fmt::format(markdown ? " {:.1f} % |" : "{:>11.1f} %", base == 0 ? 100 : 100 * double(row.counts.intersections()) / base);
+    lost += row.lost_hits;
+    near += row.near_misses;
+    uncertain = std::max(uncertain, per_million(row.counts.uncertain, row.counts.box_hits));
+  }
+  const auto& counts = survey.designs[0].counts;
+  if (markdown)
+    fmt::print("| {} | {} | {} | {:.2f} |{} {:.1f} ppm | {} | {} |\n", scene, rays, counts.rays, counts.intersections_per_ray(), ratios,
+               uncertain, lost, near);
+  else
+    fmt::print("{:<22}{:<9}{:>10}{:>13.2f}{}{:>7.1f} ppm{:>7}{:>7}\n", scene, rays, counts.rays, counts.intersections_per_ray(), ratios,
+               uncertain, lost, near);
+  std::fflush(stdout);
+}
+
+void print_changed(const std::string& scene, const Survey& survey) {
+  constexpr std::size_t kListed = 20;
+  for (std::size_t i = 0; i < survey.changed.size() && i < kListed; ++i) {
+    const ChangedHit& c = survey.changed[i];
+    fmt::print(stderr,
+               "{}: {} {}: origin {:a} {:a} {:a} direction {:a} {:a} {:a} t [{:a}, {:a}]: without culling primitive {} at {:a}, "
+               "with it {} at {:a}\n",
+               scene, to_string(c.design), c.lost ? "LOST A HIT" : "near miss", c.ray.origin.x, c.ray.origin.y, c.ray.origin.z,
+               c.ray.direction.x, c.ray.direction.y, c.ray.direction.z, c.ray.tmin, c.ray.tmax, c.without.primitive, c.without.t,
+               static_cast<std::int32_t>(c.with.primitive), c.with.t);
+  }
+}
+
+std::vector<std::string> ray_kinds(const std::string& list) {
+  if (list == "all") return {"primary", "diffuse", "shadow", "ao", "random"};
+  return {list};
+}
+
+}  // namespace
+
+int culling_command(const CullingArgs& args) {
+  const auto designs = parse_designs(args.designs);
+  bool lost = false, first = true;
+  for (const std::string& name : args.scene.scenes) {
+    const scene::Scene scene = load_scene(args.scene, name);
+    for (const std::string& kind : ray_kinds(args.scene.rays)) {
+      SceneArgs one = args.scene;
+      one.rays = kind;
+      const traces::RecordOptions options = record_options(one);
+      Survey survey;
+      {
+        Progress bar(short_name(name), 0, "paths");
+        survey = survey_culling(scene, options, designs, [&](std::uint64_t done, std::uint64_t) { bar.update(done); });
+      }
+      if (first) print_header(survey.designs, args.markdown);
+      first = false;
+      print_row(short_name(name), kind, survey, args.markdown);
+      print_changed(short_name(name), survey);
+      for (const DesignSurvey& row : survey.designs) lost |= row.lost_hits != 0;
+    }
+  }
+  return lost ? 1 : 0;
+}
+
+}  // namespace ctu::sim
