@@ -1,0 +1,163 @@
+#include "traces/columns.h"
+
+#include <cstring>
+
+#include <fmt/format.h>
+#include <zstd.h>
+
+#include "model/base/error.h"
+#include "model/base/hash.h"
+#include "traces/file.h"
+
+namespace ctu::traces {
+namespace {
+
+constexpr int kZstdLevel = 1;
+// A zstd block yields at most 128 KiB and takes at least 4 bytes, so no honest frame grows more than this.
+constexpr std::uint64_t kMaxGrowth = 1u << 15;
+
+template <std::size_t kWidth>
+void spread(const std::uint8_t* from, std::size_t elements, std::uint8_t* to) {
+  for (std::size_t i = 0; i < elements; ++i)
+    for (std::size_t b = 0; b < kWidth; ++b) to[b * elements + i] = from[i * kWidth + b];
+}
+
+template <std::size_t kWidth>
+void gather(const std::uint8_t* from, std::size_t elements, std::uint8_t* to) {
+  for (std::size_t i = 0; i < elements; ++i)
+    for (std::size_t b = 0; b < kWidth; ++b) to[i * kWidth + b] = from[b * elements + i];
+}
+
+[[noreturn]] void damaged(const std::string& path, const std::string& what, const std::string& problem) {
+  throw Error(path, fmt::format("{}: {}", what, problem), "record the trace again, or copy it again from where it came");
+}
+
+}  // namespace
+
+std::string to_string(Per per) {
+  static constexpr const char* kNames[] = {"ray", "step", "key", "word"};
+  return kNames[static_cast<int>(per)];
+}
+
+std::size_t type_bytes(const std::string& type) {
+  if (type == "f32" || type == "u32") return 4;
+  if (type == "u16") return 2;
+  if (type == "u8") return 1;
+  return 0;
+}
+
+Section image_section() {
+  return {"image", {{"words", "u32", Per::Word, "4 bytes", "the bytes the unit fetches, four by four"}}};
+}
+
+Section rays_section() {
+  return {"rays",
+          {{"origin_x", "f32", Per::Ray, "scene units", "origin"},
+           {"origin_y", "f32", Per::Ray, "scene units", "origin"},
+           {"origin_z", "f32", Per::Ray, "scene units", "origin"},
+           {"tmin", "f32", Per::Ray, "direction lengths", "first point of the ray"},
+           {"direction_x", "f32", Per::Ray, "scene units", "direction, of any length"},
+           {"direction_y", "f32", Per::Ray, "scene units", "direction, of any length"},
+           {"direction_z", "f32", Per::Ray, "scene units", "direction, of any length"},
+           {"tmax", "f32", Per::Ray, "direction lengths", "last point of the ray; may be infinite"},
+           {"kind", "u8", Per::Ray, "", "0: closest hit, 1: any hit"}}};
+}
+
+Section hits_section() {
+  return {"hits",
+          {{"t", "f32", Per::Ray, "direction lengths", "of the hit without culling; tmax when there is none"},
+           {"u", "f32", Per::Ray, "", "barycentric coordinate of the second corner"},
+           {"v", "f32", Per::Ray, "", "barycentric coordinate of the third corner"},
+           {"primitive", "u32", Per::Ray, "", "triangle's id in the scene; 4294967295: no hit"}}};
+}
+
+Section steps_section(const std::string& design, bool with_keys) {
+  Section section{"steps." + design,
+                  {{"steps", "u32", Per::Ray, "steps", "visits of the ray"},
+                   {"tail_dropped", "u8", Per::Ray, "entries", "stack entries dropped after the last visit"},
+                   {"ref", "u32", Per::Step, "", "node or leaf, as in the image's child references"},
+                   {"dropped", "u8", Per::Step, "entries", "stack entries dropped before this visit"},
+                   {"lanes", "u8", Per::Step, "", "node: box hits | survivors << 4; leaf: triangles tested"},
+                   {"detail", "u16", Per::Step, "", "node: visiting order | uncertain << 8; leaf: new best hits"}}};
+  if (with_keys)
+    section.columns.push_back({"key", "u32", Per::Key, "", "begin and end cells of each lane the box test hit"});
+  return section;
+}
+
+struct ColumnEncoder::State {
+  ZSTD_CCtx* context = ZSTD_createCCtx();
+  std::vector<std::uint8_t> planes;
+  ~State() { ZSTD_freeCCtx(context); }
+};
+
+ColumnEncoder::ColumnEncoder() : state_(std::make_unique<State>()) {
+  if (state_->context == nullptr) throw std::bad_alloc();
+  ZSTD_CCtx_setParameter(state_->context, ZSTD_c_compressionLevel, kZstdLevel);
+  ZSTD_CCtx_setParameter(state_->context, ZSTD_c_checksumFlag, 1);  // lets `zstd -t` check the file
+}
+ColumnEncoder::~ColumnEncoder() = default;
+ColumnEncoder::ColumnEncoder(ColumnEncoder&&) noexcept = default;
+
+EncodedColumn ColumnEncoder::encode(const void* data, std::size_t elements, std::size_t width) {
+  const std::size_t bytes = elements * width;
+  if (bytes > kMaxColumnBytes)
+    throw Error("trace", "one block of rays takes more than 1 GiB", "record with fewer rays per block");
+  EncodedColumn out;
+  out.elements = static_cast<std::uint32_t>(elements);
+  out.checksum = hash64(data, bytes);
+  const auto* source = static_cast<const std::uint8_t*>(data);
+  const std::uint8_t* planes = source;
+  if (width > 1) {
+    state_->planes.resize(bytes);
+    if (width == 4) spread<4>(source, elements, state_->planes.data());
+    if (width == 2) spread<2>(source, elements, state_->planes.data());
+    planes = state_->planes.data();
+  }
+  out.frame.resize(ZSTD_compressBound(bytes));
+  const std::size_t stored = ZSTD_compress2(state_->context, out.frame.data(), out.frame.size(), planes, bytes);
+  if (ZSTD_isError(stored) != 0) throw Error("trace", fmt::format("compression failed: {}", ZSTD_getErrorName(stored)), "");
+  out.frame.resize(stored);
+  out.frame.shrink_to_fit();
+  return out;
+}
+
+struct ColumnDecoder::State {
+  ZSTD_DCtx* context = ZSTD_createDCtx();
+  std::vector<std::uint8_t> planes;
+  ~State() { ZSTD_freeDCtx(context); }
+};
+
+ColumnDecoder::ColumnDecoder() : state_(std::make_unique<State>()) {
+  if (state_->context == nullptr) throw std::bad_alloc();
+}
+ColumnDecoder::~ColumnDecoder() = default;
+
+void ColumnDecoder::check_size(const std::vector<std::uint8_t>& frame, std::uint64_t elements, std::size_t width,
+                               const std::string& path, const std::string& what) {
+  const std::uint64_t bytes = elements * width;  // both below 2^32
+  if (bytes > kMaxColumnBytes || bytes > frame.size() * kMaxGrowth)
+    damaged(path, what, fmt::format("{} elements are more than its {} stored bytes can hold", elements, frame.size()));
+  if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != bytes ||
+      ZSTD_findFrameCompressedSize(frame.data(), frame.size()) != frame.size())
+    damaged(path, what, "damaged: the compressed frame does not have the size that the index gives");
+}
+
+void ColumnDecoder::decode(const std::vector<std::uint8_t>& frame, std::size_t elements, std::size_t width,
+                           std::uint64_t checksum, void* to, const std::string& path, const std::string& what) {
+  check_size(frame, elements, width, path, what);
+  const std::size_t bytes = elements * width;
+  auto* out = static_cast<std::uint8_t*>(to);
+  std::uint8_t* planes = out;
+  if (width > 1) {
+    state_->planes.resize(bytes);
+    planes = state_->planes.data();
+  }
+  const std::size_t got = ZSTD_decompressDCtx(state_->context, planes, bytes, frame.data(), frame.size());
+  if (ZSTD_isError(got) != 0) damaged(path, what, fmt::format("damaged: {}", ZSTD_getErrorName(got)));
+  if (got != bytes) damaged(path, what, "damaged: the compressed frame holds another size");
+  if (width == 4) gather<4>(planes, elements, out);
+  if (width == 2) gather<2>(planes, elements, out);
+  if (hash64(out, bytes) != checksum) damaged(path, what, "damaged: its checksum does not match");
+}
+
+}  // namespace ctu::traces

@@ -1,0 +1,246 @@
+#include "traces/recorder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "model/accel/image.h"
+#include "model/base/error.h"
+#include "model/base/parallel.h"
+#include "model/cull/mask_test.h"
+#include "model/cull/object_masks.h"
+#include "model/reference/traversal.h"
+#include "traces/ray_generator.h"
+#include "traces/trace_writer.h"
+
+namespace ctu::traces {
+namespace {
+
+using cull::Design;
+using reference::StepList;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A design at work: its tables and its walk.
+struct Culler {
+  Culler(Design d, bool store, const RecordOptions& options, const accel::Bvh4& bvh, const cull::ObjectMasks& masks)
+      : design(d), stored(store), tester(d, options.masks), traversal(bvh, &masks, tester) {}
+  Design design;
+  bool stored;
+  cull::MaskTester tester;
+  reference::Traversal traversal;
+};
+
+/// The designs asked for, each event class once, those to be stored first.
+std::vector<std::pair<Design, bool>> designs_of(const RecordOptions& options) {
+  std::vector<std::pair<Design, bool>> list;
+  const auto add = [&](Design design, bool stored) {
+    design = cull::event_class(design);
+    if (std::none_of(list.begin(), list.end(), [&](const auto& entry) { return entry.first == design; }))
+      list.emplace_back(design, stored);
+  };
+  for (const Design design : options.designs) add(design, true);
+  for (const Design design : options.count_only) add(design, false);
+  std::stable_partition(list.begin(), list.end(), [](const auto& entry) { return entry.second; });
+  return list;
+}
+
+Manifest make_manifest(const scene::Scene& scene, const RecordOptions& options) {
+  Manifest manifest;
+  manifest.scene.name = scene.name;
+  manifest.scene.hash = scene::content_hash(scene.mesh).hex();
+  manifest.scene.strand_thickness = options.strand_thickness;
+  manifest.scene.triangles = scene.mesh.triangles.size();
+  manifest.scene.camera = scene.camera;
+  manifest.scene.report = scene.report;
+  manifest.rays = options.rays;
+  manifest.build = options.build;
+  manifest.masks = options.masks;
+  for (const auto& [design, stored] : designs_of(options)) manifest.designs.push_back({design, stored, {}, 0});
+  return manifest;
+}
+
+/// What one block of paths gives: its encoded columns, and its share of the counts.
+struct Outcome {
+  EncodedBlock block;
+  std::vector<DesignCounts> designs;
+  std::vector<Difference> differences;  ///< rays counted from the block's first
+};
+
+/// Traces blocks of paths on any thread.
+class BlockTracer {
+ public:
+  BlockTracer(const RayGenerator& generator, const std::vector<std::unique_ptr<Culler>>& cullers,
+              const reference::Traversal& expected)
+      : generator_(generator), cullers_(cullers), expected_(expected) {}
+
+  Outcome trace(std::uint64_t first, std::uint64_t last, BlockEncoder& encoder) const {
+    std::vector<intersect::Ray> rays;
+    std::vector<intersect::Hit> hits;
+    std::vector<StepList> steps(cullers_.size());
+    StepList* without_culling = nullptr;  // filled on the way, as that walk gives the expected hits
+    for (std::size_t i = 0; i < cullers_.size(); ++i)
+      if (cullers_[i]->design == Design::None) without_culling = &steps[i];
+    const auto closest = [&](const intersect::Ray& ray, bool recorded) {
+      return expected_.trace(ray, recorded ? without_culling : nullptr);
+    };
+    generator_.generate(first, last, closest, rays, hits);
+
+    Outcome outcome;
+    std::vector<StepList> stored;
+    for (std::size_t i = 0; i < cullers_.size(); ++i) {
+      const Culler& culler = *cullers_[i];
+      DesignCounts counts{culler.design, culler.stored, {}, 0};
+      if (culler.design != Design::None) compare(culler, rays, hits, steps[i], counts, outcome.differences);
+      counts.counts = reference::count_steps(steps[i], 0, steps[i].rays());
+      outcome.designs.push_back(counts);
+      if (culler.stored)
+        stored.push_back(std::move(steps[i]));
+      else
+        steps[i] = {};
+    }
+    outcome.block = encoder.encode(rays, hits, stored);
+    return outcome;
+  }
+
+ private:
+  static void compare(const Culler& culler, const std::vector<intersect::Ray>& rays,
+                      const std::vector<intersect::Hit>& expected, StepList& steps, DesignCounts& counts,
+                      std::vector<Difference>& differences) {
+    for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+      const intersect::Hit hit = culler.traversal.trace(rays[ray], &steps);
+      if (same_bits(hit, expected[ray])) continue;
+      ++counts.different_hits;
+      differences.push_back({culler.design, ray, expected[ray], hit});
+    }
+  }
+
+  const RayGenerator& generator_;
+  const std::vector<std::unique_ptr<Culler>>& cullers_;
+  const reference::Traversal& expected_;
+};
+
+/// Takes outcomes from many threads and writes them in order; a thread that is early waits, which bounds the memory.
+class OrderedSink {
+ public:
+  OrderedSink(TraceWriter& writer, RecordSummary& summary) : writer_(writer), summary_(summary) {}
+
+  template <class Progress>
+  void put(std::uint64_t number, const Outcome& outcome, Progress&& progress) {
+    std::unique_lock lock(mutex_);
+    turn_.wait(lock, [&] { return next_ == number || failed_; });
+    if (failed_) return;  // the thread that failed reports why
+    try {
+      for (std::size_t i = 0; i < outcome.designs.size(); ++i) {
+        summary_.designs[i].counts += outcome.designs[i].counts;
+        summary_.designs[i].different_hits += outcome.designs[i].different_hits;
+      }
+      for (Difference difference : outcome.differences) {
+        if (summary_.differences.size() >= kMaxListedDifferences) break;
+        difference.ray += summary_.rays;
+        summary_.differences.push_back(difference);
+      }
+      writer_.add(outcome.block);
+      summary_.rays += outcome.block.rays;
+      progress();
+    } catch (...) {
+      fail();
+      throw;
+    }
+    ++next_;
+    turn_.notify_all();
+  }
+
+  /// A block that never comes must not keep the others waiting.
+  void abandon() {
+    const std::lock_guard lock(mutex_);
+    fail();
+  }
+
+ private:
+  void fail() {
+    failed_ = true;
+    turn_.notify_all();
+  }
+
+  TraceWriter& writer_;
+  RecordSummary& summary_;
+  std::mutex mutex_;
+  std::condition_variable turn_;
+  std::uint64_t next_ = 0;
+  bool failed_ = false;
+};
+
+void check_options(const RecordOptions& options) {
+  check(options.rays);
+  if (options.rays_per_block < 1 || options.rays_per_block > kMaxRaysPerBlock)
+    throw Error("record", fmt::format("rays_per_block is {}", options.rays_per_block),
+                fmt::format("give 1 to {}", kMaxRaysPerBlock));
+}
+
+}  // namespace
+
+RecordSummary record(const scene::Scene& scene, const RecordOptions& options, const std::string& path,
+                     const RecordProgress& progress) {
+  check_options(options);
+  const RayGenerator generator(scene, options.rays);
+  RecordSummary summary;
+
+  auto start = std::chrono::steady_clock::now();
+  const accel::Bvh4 bvh = accel::build(scene.mesh, options.build);
+  summary.build_seconds = seconds_since(start);
+
+  start = std::chrono::steady_clock::now();
+  const cull::ObjectMasks masks = cull::build_object_masks(bvh, options.masks, options.threads);
+  summary.mask_seconds = seconds_since(start);
+
+  start = std::chrono::steady_clock::now();
+  const Manifest manifest = make_manifest(scene, options);
+  summary.designs = manifest.designs;
+  const auto resolution = static_cast<std::uint32_t>(options.masks.resolution);
+  accel::ImageLayout layout;
+  layout.mask_bits = resolution * resolution * resolution;
+  const auto make_writer = [&] {  // the image is large and needed only here
+    const accel::Image image = accel::make_image(bvh, masks.bits.data(), masks.words, layout);
+    summary.image_bytes = image.bytes.size();
+    summary.nodes = image.node_count;
+    summary.triangles = image.triangle_count;
+    return std::make_unique<TraceWriter>(path, manifest, image);
+  };
+  const std::unique_ptr<TraceWriter> writer = make_writer();
+
+  const cull::MaskTester no_culling(Design::None, options.masks);
+  const reference::Traversal expected(bvh, nullptr, no_culling);
+  std::vector<std::unique_ptr<Culler>> cullers;
+  for (const DesignCounts& entry : manifest.designs)
+    cullers.push_back(std::make_unique<Culler>(entry.design, entry.stored, options, bvh, masks));
+  const BlockTracer tracer(generator, cullers, expected);
+
+  OrderedSink sink(*writer, summary);
+  const std::uint64_t paths_per_block = std::max(1u, options.rays_per_block / generator.max_rays_per_path());
+  parallel_chunks(generator.paths(), paths_per_block, options.threads, [&](std::size_t first, std::size_t last) {
+    try {
+      BlockEncoder encoder = writer->make_encoder();
+      const Outcome outcome = tracer.trace(first, last, encoder);
+      sink.put(first / paths_per_block, outcome, [&] {
+        if (progress) progress(last, generator.paths());
+      });
+    } catch (...) {
+      sink.abandon();
+      throw;
+    }
+  });
+  summary.hash = writer->finish(summary.designs, summary.differences);
+  summary.trace_seconds = seconds_since(start);
+  summary.file_bytes = std::filesystem::file_size(path);
+  return summary;
+}
+
+}  // namespace ctu::traces

@@ -1,0 +1,48 @@
+// Makes a trace of a scene: tree, masks, image, then the rays with what they must find and what each design visits.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/accel/build.h"
+#include "model/cull/options.h"
+#include "model/scene/scene.h"
+#include "traces/manifest.h"
+#include "traces/ray_options.h"
+
+namespace ctu::traces {
+
+struct RecordOptions {
+  RayOptions rays;
+  accel::BuildOptions build;
+  cull::MaskOptions masks;
+  /// Whose steps are stored. Projection stores MaskLut's, which are its own.
+  std::vector<cull::Design> designs = {cull::Design::None, cull::Design::MaskLut, cull::Design::Comparators};
+  std::vector<cull::Design> count_only;  ///< counted for the manifest, not stored
+  std::uint32_t rays_per_block = 16384;  ///< at most; 1 .. kMaxRaysPerBlock
+  float strand_thickness = 0;            ///< as the scene was loaded, for the manifest
+  int threads = 1;                       ///< the file is the same for any number
+};
+
+struct RecordSummary {
+  std::uint64_t rays = 0;
+  std::uint64_t file_bytes = 0;
+  std::uint64_t image_bytes = 0;
+  std::uint32_t nodes = 0, triangles = 0;
+  double build_seconds = 0, mask_seconds = 0, trace_seconds = 0;
+  std::vector<DesignCounts> designs;     ///< stored ones first
+  std::vector<Difference> differences;   ///< the first kMaxListedDifferences; all are counted in `designs`
+  std::string hash;                      ///< trace hash
+};
+
+/// Called with paths done and paths in all, from one thread at a time.
+using RecordProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
+
+/// Records to `path`. A hit with culling that differs from the hit without is counted and listed, and the trace keeps the
+/// one without as the expected hit. Throws Error on options out of range and on a file that cannot be written.
+RecordSummary record(const scene::Scene& scene, const RecordOptions& options, const std::string& path,
+                     const RecordProgress& progress = {});
+
+}  // namespace ctu::traces

@@ -1,0 +1,85 @@
+#include "traces/trace_feed.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "model/base/error.h"
+#include "traces/validate_block.h"
+
+namespace ctu::traces {
+namespace {
+
+RayRange clamp_range(const TraceReader& reader, RayRange range) {
+  range.last = std::min(range.last, reader.rays());
+  if (range.first > range.last)
+    throw Error(reader.path(), fmt::format("there is no ray {}; the trace has {}", range.first, reader.rays()),
+                "choose a range within the trace");
+  return range;
+}
+
+template <class T>
+std::vector<T> slice_of(const std::vector<T>& all, std::uint64_t first, std::uint64_t last) {
+  return {all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(last)};
+}
+
+std::vector<std::uint64_t> rebased(const std::vector<std::uint64_t>& starts, std::uint64_t first, std::uint64_t last) {
+  std::vector<std::uint64_t> out = slice_of(starts, first, last + 1);
+  const std::uint64_t base = out.front();
+  for (std::uint64_t& start : out) start -= base;
+  return out;
+}
+
+}  // namespace
+
+bool holds_steps(const TraceReader& reader, cull::Design design, const cull::MaskOptions& options) {
+  if (!reader.has_steps(design)) return false;
+  if (design == cull::Design::None) return true;
+  cull::MaskOptions recorded = reader.manifest().masks;
+  if (cull::event_class(design) != cull::Design::MaskLut) recorded.ray_resolution = options.ray_resolution;
+  return recorded == options;
+}
+
+TraceFeed::TraceFeed(const TraceReader& reader, RayRange range)
+    : reader_(reader), range_(clamp_range(reader, range)), next_ray_(range_.first) {}
+
+TraceFeed::TraceFeed(const TraceReader& reader, RayRange range, const accel::Bvh4& bvh, const cull::ObjectMasks* masks,
+                     const cull::MaskTester& tester)
+    : TraceFeed(reader, range) {
+  bvh_ = &bvh;
+  if (holds_steps(reader, tester.design(), tester.options()))
+    steps_of_ = tester.design();
+  else
+    traversal_.emplace(bvh, masks, tester);
+}
+
+std::shared_ptr<const reference::RayBlock> TraceFeed::next() {
+  if (next_ray_ >= range_.last) return nullptr;
+  const std::uint64_t number = reader_.block_of(next_ray_);
+  const std::uint64_t start = reader_.first_ray(number), end = reader_.first_ray(number + 1);
+  auto block = std::make_shared<reference::RayBlock>(reader_.read_block(number, steps_of_));
+  if (steps_of_) validate_block(*block, *bvh_, reader_.manifest().masks, reader_.path());
+  const std::uint64_t last = std::min(end, range_.last);
+  if (next_ray_ != start || last != end) *block = part_of(*block, next_ray_ - start, last - start);
+  if (traversal_)
+    for (const intersect::Ray& ray : block->rays) traversal_->trace(ray, &block->steps);
+  next_ray_ = last;
+  return block;
+}
+
+reference::RayBlock part_of(const reference::RayBlock& block, std::uint64_t first, std::uint64_t last) {
+  reference::RayBlock part;
+  part.first_ray = block.first_ray + first;
+  part.rays = slice_of(block.rays, first, last);
+  part.expected = slice_of(block.expected, first, last);
+  const reference::StepList& all = block.steps;
+  if (all.rays() == 0) return part;
+  part.steps.first_step = rebased(all.first_step, first, last);
+  part.steps.first_key = rebased(all.first_key, first, last);
+  part.steps.tail_dropped = slice_of(all.tail_dropped, first, last);
+  part.steps.steps = slice_of(all.steps, all.first_step[first], all.first_step[last]);
+  part.steps.keys = slice_of(all.keys, all.first_key[first], all.first_key[last]);
+  return part;
+}
+
+}  // namespace ctu::traces

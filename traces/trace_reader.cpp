@@ -1,0 +1,265 @@
+#include "traces/trace_reader.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "model/base/error.h"
+#include "traces/columns.h"
+#include "traces/trace_hash.h"
+
+namespace ctu::traces {
+namespace {
+
+using intersect::Hit;
+using intersect::Ray;
+using reference::Step;
+using reference::StepList;
+
+std::string steps_name(cull::Design design) {
+  return "steps." + std::string(cull::to_string(cull::event_class(design)));
+}
+
+std::vector<std::uint8_t> read_frame(const InputFile& file, const IndexEntry& entry, const char* section) {
+  std::vector<std::uint8_t> frame(entry.stored_bytes);  // lies within the file: read_layout checked
+  file.read_at(entry.offset, frame.data(), frame.size(), section);
+  return frame;
+}
+
+}  // namespace
+
+TraceReader::TraceReader(const std::string& path) : file_(path) {
+  FileLayout layout = read_layout(file_);
+  index_ = std::move(layout.index);
+  manifest_ = manifest_from_json(layout.manifest, path);
+  index_columns();
+  expect_columns(image_section(), section_number("image"));
+  for (const Section& wanted : {rays_section(), hits_section()}) {
+    expect_columns(wanted, section_number(wanted.name));
+    check_ray_columns(section_number(wanted.name));
+  }
+  for (const DesignCounts& entry : manifest_.designs) {
+    if (!entry.stored) continue;
+    const bool keys = cull::event_class(entry.design) == cull::Design::MaskLut;
+    const std::string name(cull::to_string(entry.design));
+    expect_columns(steps_section(name, keys), section_number("steps." + name));
+    check_ray_columns(section_number("steps." + name));
+  }
+  if (rays() != manifest_.ray_count) refuse("rays", "not as many rays as the manifest says");
+  hash_ = trace_hash(manifest_, index_);
+}
+
+void TraceReader::refuse(const std::string& section, const std::string& what) const {
+  throw Error(path(), fmt::format("{}: {}", section, what), "record the trace again, or copy it again from where it came");
+}
+
+std::string TraceReader::describe(const IndexEntry& entry) const {
+  const Section& section = manifest_.sections[entry.section];
+  return fmt::format("{}.{} of block {}", section.name, section.columns[entry.column].name, entry.block);
+}
+
+void TraceReader::index_columns() {
+  for (const Section& section : manifest_.sections) {
+    auto& columns = places_.emplace_back(section.columns.size());
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].width = type_bytes(section.columns[i].type);
+  }
+  for (std::size_t i = 0; i < index_.size(); ++i) {
+    const IndexEntry& entry = index_[i];
+    if (entry.section >= places_.size() || entry.column >= places_[entry.section].size())
+      refuse("index", fmt::format("entry {} is of a column that the manifest does not list", i));
+    auto& entries = places_[entry.section][entry.column].entries;
+    if (entry.block != entries.size()) refuse("index", fmt::format("blocks of {} are not in order", describe(entry)));
+    entries.push_back(static_cast<std::uint32_t>(i));
+  }
+}
+
+std::size_t TraceReader::section_number(const std::string& name) const {
+  const auto& sections = manifest_.sections;
+  return static_cast<std::size_t>(
+      std::find_if(sections.begin(), sections.end(), [&](const Section& s) { return s.name == name; }) -
+      sections.begin());
+}
+
+void TraceReader::expect_columns(const Section& wanted, std::size_t section) const {
+  if (section == manifest_.sections.size()) refuse(wanted.name, "the section is missing");
+  const Section& found = manifest_.sections[section];
+  for (const Column& column : wanted.columns) {
+    const auto same = [&](const Column& c) { return c.name == column.name && c.type == column.type; };
+    if (std::none_of(found.columns.begin(), found.columns.end(), same))
+      refuse(wanted.name, fmt::format("column {} of type {} is missing", column.name, column.type));
+  }
+}
+
+/// Ray columns have the same blocks everywhere; the first one met says which.
+void TraceReader::check_ray_columns(std::size_t section) {
+  const Section& described = manifest_.sections[section];
+  const bool first_met = described.name == "rays";
+  for (std::size_t c = 0; c < described.columns.size(); ++c) {
+    const std::vector<std::uint32_t>& entries = places_[section][c].entries;
+    if (first_met && c == 0) {
+      for (const std::uint32_t entry : entries) {
+        const std::uint32_t rays = index_[entry].elements;
+        if (rays == 0 || rays > kMaxRaysPerBlock)
+          refuse(described.name, fmt::format("{} rays in one block; 1 to {} are possible", rays, kMaxRaysPerBlock));
+        first_ray_.push_back(first_ray_.back() + rays);
+      }
+    }
+    if (entries.size() != blocks())
+      refuse(described.name, fmt::format("column {} has {} blocks instead of {}", described.columns[c].name,
+                                         entries.size(), blocks()));
+    if (described.columns[c].per != Per::Ray) continue;
+    for (std::uint64_t b = 0; b < blocks(); ++b)
+      if (index_[entries[b]].elements != first_ray_[b + 1] - first_ray_[b])
+        refuse(described.name, fmt::format("{} has another number of rays than the block", describe(index_[entries[b]])));
+  }
+}
+
+std::uint64_t TraceReader::block_of(std::uint64_t ray) const {
+  return static_cast<std::uint64_t>(std::upper_bound(first_ray_.begin(), first_ray_.end(), ray) - first_ray_.begin()) - 1;
+}
+
+bool TraceReader::has_steps(cull::Design design) const {
+  const DesignCounts* entry = manifest_.find(cull::event_class(design));
+  return entry != nullptr && entry->stored;
+}
+
+template <class T>
+std::vector<T> TraceReader::read_column(const std::string& section, const char* column, std::uint64_t block,
+                                        std::optional<std::uint64_t> elements) const {
+  const std::size_t s = section_number(section);
+  const auto& columns = manifest_.sections[s].columns;
+  const auto c = static_cast<std::size_t>(
+      std::find_if(columns.begin(), columns.end(), [&](const Column& one) { return one.name == column; }) -
+      columns.begin());
+  const IndexEntry& entry = index_[places_[s][c].entries[block]];
+  const std::string what = describe(entry);
+  if (elements && entry.elements != *elements)
+    refuse(what, fmt::format("{} elements instead of {}", entry.elements, *elements));
+  const std::vector<std::uint8_t> frame = read_frame(file_, entry, section.c_str());
+  ColumnDecoder::check_size(frame, entry.elements, sizeof(T), path(), what);
+  std::vector<T> values(entry.elements);
+  ColumnDecoder decoder;
+  decoder.decode(frame, entry.elements, sizeof(T), entry.checksum, values.data(), path(), what);
+  return values;
+}
+
+accel::Image TraceReader::read_image() const {
+  const std::size_t section = section_number("image");
+  const auto& entries = places_[section][0].entries;
+  std::uint64_t bytes = 0;
+  for (const std::uint32_t entry : entries) bytes += std::uint64_t{index_[entry].elements} * sizeof(std::uint32_t);
+  if (bytes != manifest_.image.size_bytes) refuse("image", "not as many bytes as the manifest says");
+  accel::Image image = manifest_.image.shape;
+  for (std::uint64_t block = 0; block < entries.size(); ++block) {
+    const auto words = read_column<std::uint32_t>("image", "words", block, std::nullopt);
+    const auto* first = reinterpret_cast<const std::uint8_t*>(words.data());
+    image.bytes.insert(image.bytes.end(), first, first + words.size() * sizeof(std::uint32_t));
+  }
+  const std::uint32_t resolution = static_cast<std::uint32_t>(manifest_.masks.resolution);
+  if (image.layout.mask_bits != 0 && image.layout.mask_bits != resolution * resolution * resolution)
+    refuse("image", fmt::format("masks of {} bits are not those of R = {}", image.layout.mask_bits, resolution));
+  try {
+    accel::validate(image);
+  } catch (const Error& problem) {
+    refuse("image", problem.what());
+  }
+  return image;
+}
+
+reference::RayBlock TraceReader::read_block(std::uint64_t block, std::optional<cull::Design> steps_of) const {
+  if (block >= blocks()) refuse("rays", fmt::format("there is no block {}", block));
+  reference::RayBlock out;
+  out.first_ray = first_ray_[block];
+  const std::uint64_t count = first_ray_[block + 1] - first_ray_[block];
+  out.rays.resize(count);
+  out.expected.resize(count);
+
+  const auto scatter = [&]<class T>(const char* section, const char* column, auto&& set, T) {
+    const std::vector<T> values = read_column<T>(section, column, block, count);
+    for (std::uint64_t i = 0; i < count; ++i) set(i, values[i]);
+  };
+  static constexpr const char* kOrigin[] = {"origin_x", "origin_y", "origin_z"};
+  static constexpr const char* kDirection[] = {"direction_x", "direction_y", "direction_z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    scatter("rays", kOrigin[axis], [&](std::uint64_t i, float x) { out.rays[i].origin[axis] = x; }, 0.0f);
+    scatter("rays", kDirection[axis], [&](std::uint64_t i, float x) { out.rays[i].direction[axis] = x; }, 0.0f);
+  }
+  scatter("rays", "tmin", [&](std::uint64_t i, float x) { out.rays[i].tmin = x; }, 0.0f);
+  scatter("rays", "tmax", [&](std::uint64_t i, float x) { out.rays[i].tmax = x; }, 0.0f);
+  const auto set_kind = [&](std::uint64_t i, std::uint8_t kind) {
+    if (kind > 1) refuse("rays", fmt::format("ray {} is of kind {}, which is none", out.first_ray + i, kind));
+    out.rays[i].kind = static_cast<intersect::RayKind>(kind);
+  };
+  scatter("rays", "kind", set_kind, std::uint8_t{});
+  scatter("hits", "t", [&](std::uint64_t i, float x) { out.expected[i].t = x; }, 0.0f);
+  scatter("hits", "u", [&](std::uint64_t i, float x) { out.expected[i].u = x; }, 0.0f);
+  scatter("hits", "v", [&](std::uint64_t i, float x) { out.expected[i].v = x; }, 0.0f);
+  const auto set_primitive = [&](std::uint64_t i, std::uint32_t primitive) {
+    if (primitive != intersect::kNoPrimitive && primitive >= manifest_.scene.triangles)
+      refuse("hits", fmt::format("ray {} hits primitive {}, which the scene does not have", out.first_ray + i, primitive));
+    out.expected[i].primitive = primitive;
+  };
+  scatter("hits", "primitive", set_primitive, std::uint32_t{});
+  if (!steps_of) return out;
+
+  if (!has_steps(*steps_of)) refuse(steps_name(*steps_of), "the trace has no steps of this design");
+  const std::string section = steps_name(*steps_of);
+  StepList& list = out.steps;
+  const auto counts = read_column<std::uint32_t>(section, "steps", block, count);
+  for (const std::uint32_t steps : counts) list.first_step.push_back(list.first_step.back() + steps);
+  const std::uint64_t total = list.first_step.back();
+  list.tail_dropped = read_column<std::uint8_t>(section, "tail_dropped", block, count);
+  {
+    const auto refs = read_column<std::uint32_t>(section, "ref", block, total);
+    list.steps.resize(total);
+    for (std::uint64_t i = 0; i < total; ++i) list.steps[i].ref = refs[i];
+  }
+  const auto dropped = read_column<std::uint8_t>(section, "dropped", block, total);
+  const auto lanes = read_column<std::uint8_t>(section, "lanes", block, total);
+  const auto detail = read_column<std::uint16_t>(section, "detail", block, total);
+  for (std::uint64_t i = 0; i < total; ++i) {
+    list.steps[i].dropped = dropped[i];
+    list.steps[i].lanes = lanes[i];
+    list.steps[i].detail = detail[i];
+  }
+  const bool keyed = cull::event_class(*steps_of) == cull::Design::MaskLut;
+  std::uint64_t keys = 0;
+  for (std::uint64_t ray = 0; ray < count; ++ray) {
+    if (keyed)
+      for (std::uint64_t i = list.first_step[ray]; i < list.first_step[ray + 1]; ++i)
+        if (!list.steps[i].is_leaf()) keys += static_cast<std::uint64_t>(std::popcount(list.steps[i].box_hits()));
+    list.first_key.push_back(keys);
+  }
+  if (keyed) list.keys = read_column<std::uint32_t>(section, "key", block, keys);
+  return out;
+}
+
+void TraceReader::verify() const {
+  ColumnDecoder decoder;
+  std::vector<std::uint8_t> content;
+  for (const IndexEntry& entry : index_) {
+    const std::string what = describe(entry);
+    const std::size_t width = places_[entry.section][entry.column].width;
+    const std::vector<std::uint8_t> frame = read_frame(file_, entry, what.c_str());
+    if (width == 0) continue;  // a type of a newer program
+    ColumnDecoder::check_size(frame, entry.elements, width, path(), what);
+    content.resize(entry.elements * width);
+    decoder.decode(frame, entry.elements, width, entry.checksum, content.data(), path(), what);
+  }
+}
+
+cull::ObjectMasks masks_of(const accel::Image& image, const cull::MaskOptions& options) {
+  cull::ObjectMasks masks;
+  masks.resolution = options.resolution;
+  masks.words = cull::words_per_mask(options.resolution);
+  if (image.layout.mask_bits == 0) return masks;
+  masks.bits.resize(static_cast<std::size_t>(image.node_count) * intersect::kLanes * masks.words);
+  std::uint64_t* to = masks.bits.data();
+  for (std::uint32_t node = 0; node < image.node_count; ++node)
+    for (int lane = 0; lane < intersect::kLanes; ++lane, to += masks.words) accel::read_mask(image, node, lane, to);
+  return masks;
+}
+
+}  // namespace ctu::traces

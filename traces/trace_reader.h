@@ -1,0 +1,70 @@
+// Reads a trace: what it says about itself at once, the image and the blocks when asked. Whatever the bytes of the file
+// are, each function returns what was written or throws Error naming the file and the section.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/accel/image.h"
+#include "model/cull/object_masks.h"
+#include "model/reference/ray_block.h"
+#include "traces/file.h"
+#include "traces/manifest.h"
+
+namespace ctu::traces {
+
+/// Const after construction; blocks may be read from many threads.
+class TraceReader {
+ public:
+  explicit TraceReader(const std::string& path);
+
+  const std::string& path() const { return file_.path(); }
+  const Manifest& manifest() const { return manifest_; }
+  std::string hash() const { return hash_; }
+  std::uint64_t size_bytes() const { return file_.size_bytes(); }
+
+  std::uint64_t rays() const { return first_ray_.back(); }
+  std::uint64_t blocks() const { return first_ray_.size() - 1; }
+  std::uint64_t first_ray(std::uint64_t block) const { return first_ray_[block]; }
+  std::uint64_t block_of(std::uint64_t ray) const;  ///< ray < rays()
+  bool has_steps(cull::Design design) const;        ///< of its event class
+
+  /// The image the steps refer to, validated.
+  accel::Image read_image() const;
+
+  /// One block; with the steps of a design that has them. Steps are whole and add up; whether they are a walk through
+  /// the image is for validate_block to say.
+  reference::RayBlock read_block(std::uint64_t block, std::optional<cull::Design> steps_of = std::nullopt) const;
+
+  /// Reads every byte of the file against its checksum, of sections that are not known to this program too.
+  void verify() const;
+
+ private:
+  struct ColumnPlace {
+    std::size_t width = 0;
+    std::vector<std::uint32_t> entries;  ///< index entry of each block
+  };
+  void index_columns();
+  void check_ray_columns(std::size_t section);
+  std::size_t section_number(const std::string& name) const;  ///< sections.size() when there is none
+  void expect_columns(const Section& wanted, std::size_t section) const;
+  template <class T>
+  std::vector<T> read_column(const std::string& section, const char* column, std::uint64_t block,
+                             std::optional<std::uint64_t> elements) const;
+  std::string describe(const IndexEntry& entry) const;
+  [[noreturn]] void refuse(const std::string& section, const std::string& what) const;
+
+  InputFile file_;
+  Manifest manifest_;
+  std::vector<IndexEntry> index_;
+  std::string hash_;
+  std::vector<std::vector<ColumnPlace>> places_;  ///< of section, column
+  std::vector<std::uint64_t> first_ray_{0};
+};
+
+/// The masks that an image carries, as the software asks them. Empty bits when it carries none.
+cull::ObjectMasks masks_of(const accel::Image& image, const cull::MaskOptions& options);
+
+}  // namespace ctu::traces

@@ -1,0 +1,166 @@
+#include "traces/trace_writer.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "model/base/error.h"
+#include "model/base/hash.h"
+#include "model/base/version.h"
+#include "traces/trace_hash.h"
+
+namespace ctu::traces {
+namespace {
+
+constexpr std::size_t kImageBlockWords = 1u << 20;
+constexpr std::uint16_t kImageSection = 0, kRaysSection = 1, kHitsSection = 2, kFirstStepsSection = 3;
+
+bool has_keys(cull::Design design) { return cull::event_class(design) == cull::Design::MaskLut; }
+
+/// Collects one member of many structures into a column and encodes it.
+class ColumnSink {
+ public:
+  ColumnSink(ColumnEncoder& encoder, std::vector<EncodedColumn>& columns, std::uint16_t section)
+      : encoder_(encoder), columns_(columns), section_(section) {}
+
+  template <class T, class Items, class Get>
+  void add(const Items& items, Get&& get) {
+    std::vector<T> values(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) values[i] = static_cast<T>(get(items[i]));
+    add(values);
+  }
+  template <class T>
+  void add(const std::vector<T>& values) {
+    columns_.push_back(encoder_.encode(values.data(), values.size(), sizeof(T)));
+    columns_.back().section = section_;
+    columns_.back().column = next_++;
+  }
+
+ private:
+  ColumnEncoder& encoder_;
+  std::vector<EncodedColumn>& columns_;
+  std::uint16_t section_, next_ = 0;
+};
+
+void encode_rays(ColumnSink sink, const std::vector<intersect::Ray>& rays) {
+  using intersect::Ray;
+  for (int axis = 0; axis < 3; ++axis) sink.add<float>(rays, [=](const Ray& ray) { return ray.origin[axis]; });
+  sink.add<float>(rays, [](const Ray& ray) { return ray.tmin; });
+  for (int axis = 0; axis < 3; ++axis) sink.add<float>(rays, [=](const Ray& ray) { return ray.direction[axis]; });
+  sink.add<float>(rays, [](const Ray& ray) { return ray.tmax; });
+  sink.add<std::uint8_t>(rays, [](const Ray& ray) { return ray.kind; });
+}
+
+void encode_hits(ColumnSink sink, const std::vector<intersect::Hit>& hits) {
+  using intersect::Hit;
+  sink.add<float>(hits, [](const Hit& hit) { return hit.t; });
+  sink.add<float>(hits, [](const Hit& hit) { return hit.u; });
+  sink.add<float>(hits, [](const Hit& hit) { return hit.v; });
+  sink.add<std::uint32_t>(hits, [](const Hit& hit) { return hit.primitive; });
+}
+
+void encode_steps(ColumnSink sink, const reference::StepList& list, bool with_keys) {
+  using reference::Step;
+  std::vector<std::uint32_t> counts(list.rays());
+  for (std::size_t ray = 0; ray < counts.size(); ++ray)
+    counts[ray] = static_cast<std::uint32_t>(list.first_step[ray + 1] - list.first_step[ray]);
+  sink.add(counts);
+  sink.add(list.tail_dropped);
+  sink.add<std::uint32_t>(list.steps, [](const Step& step) { return step.ref; });
+  sink.add<std::uint8_t>(list.steps, [](const Step& step) { return step.dropped; });
+  sink.add<std::uint8_t>(list.steps, [](const Step& step) { return step.lanes; });
+  sink.add<std::uint16_t>(list.steps, [](const Step& step) { return step.detail; });
+  if (with_keys) sink.add(list.keys);
+}
+
+std::vector<cull::Design> stored_designs(const Manifest& manifest) {
+  std::vector<cull::Design> designs;
+  for (const DesignCounts& entry : manifest.designs)
+    if (entry.stored) designs.push_back(entry.design);
+  return designs;
+}
+
+}  // namespace
+
+EncodedBlock BlockEncoder::encode(const std::vector<intersect::Ray>& rays, const std::vector<intersect::Hit>& hits,
+                                  const std::vector<reference::StepList>& steps) {
+  if (rays.size() > kMaxRaysPerBlock || hits.size() != rays.size() || steps.size() != designs_.size())
+    throw Error("trace", "a block does not have what the trace promises", "");
+  EncodedBlock block;
+  block.rays = rays.size();
+  encode_rays({encoder_, block.columns, kRaysSection}, rays);
+  encode_hits({encoder_, block.columns, kHitsSection}, hits);
+  for (std::size_t i = 0; i < designs_.size(); ++i) {
+    if (steps[i].rays() != rays.size()) throw Error("trace", "a block has not as many event sequences as rays", "");
+    encode_steps({encoder_, block.columns, static_cast<std::uint16_t>(kFirstStepsSection + i)}, steps[i],
+                 has_keys(designs_[i]));
+  }
+  return block;
+}
+
+TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel::Image& image)
+    : manifest_(std::move(manifest)),
+      stored_designs_(stored_designs(manifest_)),
+      encoder_(stored_designs_),
+      file_(path) {
+  manifest_.tool = std::string("ctusim ") + tool_version();
+  manifest_.ray_count = 0;
+  manifest_.image.size_bytes = image.bytes.size();
+  manifest_.image.shape = image;
+  manifest_.image.shape.bytes = {};
+  manifest_.sections = {image_section(), rays_section(), hits_section()};
+  for (const cull::Design design : stored_designs_)
+    manifest_.sections.push_back(steps_section(std::string(cull::to_string(design)), has_keys(design)));
+
+  const FileHeader header = make_header();
+  file_.write(&header, sizeof header);
+  assert(image.bytes.size() % sizeof(std::uint32_t) == 0);
+  const std::size_t words = image.bytes.size() / sizeof(std::uint32_t);
+  ColumnEncoder encoder;
+  for (std::size_t first = 0, block = 0; first < words; first += kImageBlockWords, ++block) {
+    const std::size_t count = std::min(kImageBlockWords, words - first);
+    std::vector<EncodedColumn> column;
+    column.push_back(encoder.encode(image.bytes.data() + first * sizeof(std::uint32_t), count, sizeof(std::uint32_t)));
+    column.back().section = kImageSection;
+    add_columns(column, static_cast<std::uint32_t>(block));
+  }
+}
+
+void TraceWriter::add_columns(const std::vector<EncodedColumn>& columns, std::uint32_t block) {
+  for (const EncodedColumn& column : columns) {
+    index_.push_back({column.section, column.column, block, file_.position(),
+                      static_cast<std::uint32_t>(column.frame.size()), column.elements, column.checksum});
+    file_.write(column.frame.data(), column.frame.size());
+  }
+}
+
+void TraceWriter::add(const EncodedBlock& block) {
+  if (block.rays == 0) return;
+  add_columns(block.columns, blocks_++);
+  manifest_.ray_count += block.rays;
+}
+
+void TraceWriter::add(const reference::RayBlock& block, const std::vector<reference::StepList>& steps) {
+  add(encoder_.encode(block.rays, block.expected, steps));
+}
+
+std::string TraceWriter::finish(std::vector<DesignCounts> designs, std::vector<Difference> differences) {
+  manifest_.designs = std::move(designs);
+  manifest_.differences = std::move(differences);
+  FileFooter footer;
+  const std::string text = to_json(manifest_);
+  footer.manifest_offset = file_.position();
+  footer.manifest_bytes = text.size();
+  footer.manifest_checksum = hash64(text.data(), text.size());
+  file_.write_skippable(text.data(), text.size());
+  const std::size_t index_bytes = index_.size() * sizeof(IndexEntry);
+  footer.index_offset = file_.position();
+  footer.index_entries = index_.size();
+  footer.index_checksum = hash64(index_.data(), index_bytes);
+  file_.write_skippable(index_.data(), index_bytes);
+  seal(footer);
+  file_.write(&footer, sizeof footer);
+  file_.commit();
+  return trace_hash(manifest_, index_);
+}
+
+}  // namespace ctu::traces

@@ -1,0 +1,58 @@
+// Writes a trace block by block, in bounded memory. Blocks are encoded (by any thread, each with its own BlockEncoder) and
+// then added in order.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/accel/image.h"
+#include "model/reference/ray_block.h"
+#include "traces/columns.h"
+#include "traces/file.h"
+#include "traces/manifest.h"
+
+namespace ctu::traces {
+
+/// Rays, hits and steps of one block, ready to be written.
+struct EncodedBlock {
+  std::uint64_t rays = 0;
+  std::vector<EncodedColumn> columns;
+};
+
+class BlockEncoder {
+ public:
+  /// `designs`: whose steps are stored, in the order in which `encode` gets them.
+  explicit BlockEncoder(std::vector<cull::Design> designs) : designs_(std::move(designs)) {}
+  EncodedBlock encode(const std::vector<intersect::Ray>& rays, const std::vector<intersect::Hit>& hits,
+                      const std::vector<reference::StepList>& steps);
+
+ private:
+  std::vector<cull::Design> designs_;
+  ColumnEncoder encoder_;
+};
+
+class TraceWriter {
+ public:
+  /// Creates the file and writes the image. The designs that the manifest calls stored are those whose steps come with
+  /// every block. Throws Error when the file cannot be written.
+  TraceWriter(const std::string& path, Manifest manifest, const accel::Image& image);
+
+  BlockEncoder make_encoder() const { return BlockEncoder(stored_designs_); }
+  void add(const EncodedBlock& block);
+  void add(const reference::RayBlock& block, const std::vector<reference::StepList>& steps);
+
+  /// Writes manifest, index and footer, and gives the file its name. Returns the trace hash.
+  std::string finish(std::vector<DesignCounts> designs, std::vector<Difference> differences);
+
+ private:
+  void add_columns(const std::vector<EncodedColumn>& columns, std::uint32_t block);
+
+  Manifest manifest_;
+  std::vector<cull::Design> stored_designs_;
+  BlockEncoder encoder_;
+  OutputFile file_;
+  std::vector<IndexEntry> index_;
+  std::uint32_t blocks_ = 0;
+};
+
+}  // namespace ctu::traces
