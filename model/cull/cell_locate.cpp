@@ -20,70 +20,42 @@ struct Range {
   float down, up;
 };
 
-struct Count {
-  int planes;    ///< inner planes passed
-  bool certain;  ///< by every value of the range
+struct Cell {
+  int index;
+  bool certain;  ///< the same for every value of the range
 };
 
-/// How many inner planes, the first at `first`, the last before `second`, lie at or before (`Closed`), or before, a
-/// value of the range.
-class PlaneCounter {
+/// The inner planes of one axis in the order of ray time (or of position, on an axis without motion).
+class Planes {
  public:
-  PlaneCounter(int resolution, Range first, Range second) : inner_((1u << (resolution - 1)) - 1) {
-    const LerpWeights& weights = lerp_weights(resolution);
-    groups_ = plane_groups(resolution);
+  Planes(const LerpWeights& weights, int resolution, Range first, Range second)
+      : inner_((1u << (resolution - 1)) - 1), groups_(plane_groups(resolution)) {
     for (int g = 0; g < groups_; ++g) {
       down_[g] = lerp_planes<Round::Down>(weights, g, first.down, second.down);
       up_[g] = lerp_planes<Round::Up>(weights, g, first.up, second.up);
     }
   }
 
-  Count at_or_before(Range value) const {
-    return count([&](int g) { return up_[g] <= numeric::splat(value.down); },
-                 [&](int g) { return down_[g] > numeric::splat(value.up); });
-  }
-  Count before(Range value) const {
-    return count([&](int g) { return up_[g] < numeric::splat(value.down); },
-                 [&](int g) { return down_[g] >= numeric::splat(value.up); });
+  /// The floor cell of the point at `value`: the planes at or below it. Going up, a plane is below from the moment it
+  /// is met on; going down, until after it is met.
+  Cell cell_at(Range value, bool descending) const {
+    const numeric::Mask4 passed_when_met = numeric::splat(descending ? 0 : -1);
+    const Float4 down = numeric::splat(value.down), up = numeric::splat(value.up);
+    unsigned passed = 0, ahead = 0;
+    for (int g = 0; g < groups_; ++g) {
+      passed |= set_lanes((up_[g] < down) | ((up_[g] == down) & passed_when_met)) << (4 * g);
+      ahead |= set_lanes((down_[g] > up) | ((down_[g] == up) & ~passed_when_met)) << (4 * g);
+    }
+    // An undecided plane is in neither set; so would a NaN be.
+    const int below = std::popcount((descending ? ahead : passed) & inner_);
+    return {below, ((passed | ahead) & inner_) == inner_};
   }
 
  private:
-  template <class Passed, class Ahead> Count count(Passed passed, Ahead ahead) const {
-    unsigned passed_bits = 0, ahead_bits = 0;
-    for (int g = 0; g < groups_; ++g) {
-      passed_bits |= set_lanes(passed(g)) << (4 * g);
-      ahead_bits |= set_lanes(ahead(g)) << (4 * g);
-    }
-    // An undecided plane is in neither set; so would a NaN be.
-    return {std::popcount(passed_bits & inner_), ((passed_bits | ahead_bits) & inner_) == inner_};
-  }
-
   unsigned inner_;
   int groups_;
   Float4 down_[kPlaneGroups], up_[kPlaneGroups];
 };
-
-/// Floor cells along an axis: planes at or below the point. Going down, a plane is at or below the point while it has
-/// not been passed.
-struct AxisCells {
-  int begin, end;
-  bool certain;
-};
-
-AxisCells along_zero_axis(int resolution, float lo, float hi, float origin) {
-  const Count count = PlaneCounter(resolution, {lo, lo}, {hi, hi}).at_or_before({origin, origin});
-  return {count.planes, count.planes, count.certain};
-}
-
-AxisCells along_axis(int resolution, Range near, Range far, Range entry, Range exit, bool descending) {
-  const PlaneCounter planes(resolution, near, far);
-  if (!descending) {
-    const Count begin = planes.at_or_before(entry), end = planes.at_or_before(exit);
-    return {begin.planes, end.planes, begin.certain && end.certain};
-  }
-  const Count begin = planes.before(entry), end = planes.before(exit);
-  return {resolution - 1 - begin.planes, resolution - 1 - end.planes, begin.certain && end.certain};
-}
 
 }  // namespace
 
@@ -95,20 +67,26 @@ CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTime
     exit.down = times.far_down[axis][lane] < exit.down ? times.far_down[axis][lane] : exit.down;
   }
 
+  const LerpWeights& weights = lerp_weights(ray_resolution);
   CellKey key;
   for (int axis = 0; axis < 3; ++axis) {
     const float lo = boxes.lo[axis][lane], hi = boxes.hi[axis][lane];
     // A flat box has one layer that the object mask repeats in every cell of the axis: any cell will do.
     if (lo == hi) continue;
-    const AxisCells cells =
-        (ray.zero_axes >> axis & 1) != 0
-            ? along_zero_axis(ray_resolution, lo, hi, ray.ray.origin[axis])
-            : along_axis(ray_resolution, {times.near_down[axis][lane], times.near_up[axis][lane]},
-                         {times.far_down[axis][lane], times.far_up[axis][lane]}, entry, exit,
-                         (ray.negative_axes >> axis & 1) != 0);
-    key.packed |= static_cast<std::uint32_t>(cells.begin) << (4 * axis);
-    key.packed |= static_cast<std::uint32_t>(cells.end) << (12 + 4 * axis);
-    if (!cells.certain) key.packed |= CellKey::kUncertain;
+    Cell begin, end;
+    if ((ray.zero_axes >> axis & 1) != 0) {
+      const float position = ray.ray.origin[axis];
+      begin = end = Planes(weights, ray_resolution, {lo, lo}, {hi, hi}).cell_at({position, position}, false);
+    } else {
+      const Planes planes(weights, ray_resolution, {times.near_down[axis][lane], times.near_up[axis][lane]},
+                          {times.far_down[axis][lane], times.far_up[axis][lane]});
+      const bool descending = (ray.negative_axes >> axis & 1) != 0;
+      begin = planes.cell_at(entry, descending);
+      end = planes.cell_at(exit, descending);
+    }
+    key.packed |= static_cast<std::uint32_t>(begin.index) << (4 * axis);
+    key.packed |= static_cast<std::uint32_t>(end.index) << (12 + 4 * axis);
+    if (!begin.certain || !end.certain) key.packed |= CellKey::kUncertain;
   }
   return key;
 }
