@@ -104,11 +104,11 @@ TEST_F(CommandTest, the_reference_engine_counts_what_the_unit_counts) {
 }
 
 TEST_F(CommandTest, a_shown_configuration_reads_back_as_itself) {
-  const Outcome shown = ctusim("config show --set contexts=8 --set mask_test.design=comparators");
+  const Outcome shown = ctusim("config show --set unit.contexts=8 --set mask_test.design=comparators");
   ASSERT_EQ(shown.exit_code, 0) << shown.err;
   write_text(file("shown.toml"), shown.out);
   EXPECT_EQ(run_json("-c shown.toml")["config_hash"],
-            run_json("--set contexts=8 --set mask_test.design=comparators")["config_hash"]);
+            run_json("--set unit.contexts=8 --set mask_test.design=comparators")["config_hash"]);
 }
 
 TEST_F(CommandTest, compare_prints_a_line_for_each_design) {
@@ -143,9 +143,9 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("run missing.ctut", "missing.ctut");
   expect_refused("run hair.ctut --set mask_test.desing=none", "mask_test.design");
   expect_refused("run hair.ctut --set mask_test.design=projektion", "projection");
-  expect_refused("run hair.ctut --set contexts=0", "contexts");
-  expect_refused("run hair.ctut --set contexts=many", "contexts");
-  expect_refused("run hair.ctut --set contexts", "--set contexts");
+  expect_refused("run hair.ctut --set unit.contexts=0", "unit.contexts");
+  expect_refused("run hair.ctut --set unit.contexts=many", "unit.contexts");
+  expect_refused("run hair.ctut --set unit.contexts", "--set unit.contexts");
   expect_refused("run hair.ctut --window 5", "--window");
   expect_refused("run hair.ctut --engine hardware", "--engine");
   expect_refused("run hair.ctut --mode turbo", "--mode");
@@ -160,8 +160,8 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
 }
 
 TEST_F(CommandTest, a_broken_configuration_is_refused_with_file_and_line) {
-  write_text(file("bad.toml"), "contexts = 16\n[mask_test]\ndesing = \"none\"\n");
-  expect_refused("run hair.ctut -c bad.toml", "bad.toml:3");
+  write_text(file("bad.toml"), "[unit]\ncontexts = 16\n[mask_test]\ndesing = \"none\"\n");
+  expect_refused("run hair.ctut -c bad.toml", "bad.toml:4");
   write_text(file("broken.toml"), "contexts = \n");
   expect_refused("run hair.ctut -c broken.toml", "broken.toml:1");
   expect_refused("run hair.ctut -c absent.toml", "absent.toml");

@@ -34,7 +34,7 @@ TEST(ConfigTest, integers_outside_their_range_are_refused_by_name) {
 }
 
 TEST(ConfigTest, the_hash_tells_configurations_apart) {
-  EXPECT_NE(sim::config_hash(sim::load_config("", {"contexts=8"})), sim::config_hash(sim::load_config("", {"contexts=16"})));
+  EXPECT_NE(sim::config_hash(sim::load_config("", {"unit.contexts=8"})), sim::config_hash(sim::load_config("", {"unit.contexts=16"})));
 }
 
 }  // namespace

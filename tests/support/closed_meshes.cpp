@@ -1,5 +1,6 @@
 #include "tests/support/closed_meshes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -20,7 +21,7 @@ class MidpointCutter {
  public:
   explicit MidpointCutter(scene::Mesh& mesh) : mesh_(mesh) {}
   std::uint32_t midpoint(std::uint32_t a, std::uint32_t b) {
-    const auto key = std::minmax(a, b);
+    const std::pair<std::uint32_t, std::uint32_t> key = std::minmax(a, b);
     const auto found = made_.find(key);
     if (found != made_.end()) return found->second;
     const Vec3 p = mesh_.vertices[a], q = mesh_.vertices[b];
