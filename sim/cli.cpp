@@ -15,6 +15,10 @@ void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
                                "a generated one: gen:hair-ball?strands=2000&seed=1");
   scene->required()->expected(1, several ? -1 : 1);
   app.add_option("--thickness", args.strand_thickness, "ribbon width of strands in scene units; 0: from the file");
+  app.add_option("--eye", args.eye, "camera position x,y,z; otherwise the scene's own, or one that sees all of it");
+  app.add_option("--target", args.target, "what the camera looks at, x,y,z");
+  app.add_option("--up", args.up, "direction that is up in the picture, x,y,z");
+  app.add_option("--fov", args.vertical_fov, "vertical field of view in degrees");
   app.add_option("--rays", args.rays, "primary, diffuse, shadow, ao or random")->capture_default_str();
   app.add_option("--size", args.size, "picture size in pixels, WxH")->capture_default_str();
   app.add_option("--spp", args.spp, "samples per pixel")->capture_default_str();

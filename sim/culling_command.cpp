@@ -1,6 +1,7 @@
 // `ctusim culling`: intersections with each design relative to none, and every hit that changes.
+#include <algorithm>
 #include <cstdio>
-#include <set>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -12,16 +13,19 @@
 namespace ctu::sim {
 namespace {
 
-/// "a/b/bunny.ply.zst" -> "bunny".
+/// "a/bunny/bunny.ply.zst" -> "bunny"; "a/kitchen/scene.pbrt" -> "kitchen".
 std::string short_name(const std::string& name) {
-  const std::string file = name.substr(name.find_last_of('/') + 1);
-  return file.rfind("gen:", 0) == 0 ? file : file.substr(0, file.find('.'));
+  if (name.rfind("gen:", 0) == 0) return name;
+  const std::filesystem::path path(name);
+  const std::string file = path.filename().string();
+  const std::string stem = file.substr(0, file.find('.'));
+  return stem == "scene" && path.has_parent_path() ? path.parent_path().filename().string() : stem;
 }
 
 void print_header(const std::vector<DesignSurvey>& rows, bool markdown) {
   std::string names, rule;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    names += fmt::format(markdown ? " {} |" : "{:>13}", to_string(rows[i].design));
+    names += markdown ? fmt::format(" {} |", to_string(rows[i].design)) : fmt::format("{:>13}", to_string(rows[i].design));
     rule += " ---: |";
   }
   if (markdown)
@@ -41,7 +45,8 @@ void print_row(const std::string& scene, const std::string& rays, const Survey& 
   double uncertain = 0;
   for (std::size_t i = 1; i < survey.designs.size(); ++i) {
     const DesignSurvey& row = survey.designs[i];
-    ratios += fmt::format(markdown ? " {:.1f} % |" : "{:>11.1f} %", base == 0 ? 100 : 100 * double(row.counts.intersections()) / base);
+    const double percent = base == 0 ? 100 : 100 * double(row.counts.intersections()) / base;
+    ratios += markdown ? fmt::format(" {:.1f} % |", percent) : fmt::format("{:>11.1f} %", percent);
     lost += row.lost_hits;
     near += row.near_misses;
     uncertain = std::max(uncertain, per_million(row.counts.uncertain, row.counts.box_hits));

@@ -1,6 +1,8 @@
 #include "sim/scene_args.h"
 
+#include <algorithm>
 #include <charconv>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -34,6 +36,26 @@ traces::RayOptions::Rays parse_rays(const std::string& name) {
   if (const auto kind = traces::rays_from_string(name)) return *kind;
   const std::vector<std::string> known{"primary", "diffuse", "shadow", "ao", "random"};
   throw Error("--rays", fmt::format("unknown kind \"{}\"", name), fmt::format("did you mean \"{}\"?", nearest_name(name, known)));
+}
+
+/// "x,y,z" over a point of the camera; empty text leaves it.
+void parse_point(const char* option, const std::string& text, Vec3& point) {
+  if (text.empty()) return;
+  const std::string remedy = fmt::format("write it as in {} 1.5,0,-2", option);
+  std::string_view rest = text;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto comma = axis < 2 ? rest.find(',') : rest.size();
+    if (comma == std::string_view::npos) throw Error(option, fmt::format("\"{}\" is not three numbers", text), remedy);
+    point[axis] = parse_number<float>(rest.substr(0, comma), option, remedy);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+}
+
+void place_camera(const SceneArgs& args, scene::Camera& camera) {
+  parse_point("--eye", args.eye, camera.eye);
+  parse_point("--target", args.target, camera.target);
+  parse_point("--up", args.up, camera.up);
+  if (args.vertical_fov != 0) camera.vertical_fov_degrees = static_cast<float>(args.vertical_fov);
 }
 
 int parse_levels(const std::string& levels) {
@@ -96,6 +118,7 @@ scene::Scene load_scene(const SceneArgs& args, const std::string& name) {
   scene::LoadOptions options;
   options.strand_thickness = static_cast<float>(args.strand_thickness);
   scene::Scene scene = scene::load(name, options);
+  place_camera(args, scene.camera);
   for (const std::string& warning : scene.report.warnings) fmt::print(stderr, "{}: {}\n", scene.name, warning);
   return scene;
 }

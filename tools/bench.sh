@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Speeds: the unit in every mode, exec and replay; the builder and the closest hit beside Embree; recording a large scene.
+#   tools/bench.sh BUILD_FOLDER SCRATCH_FOLDER
+set -euo pipefail
+build=$1
+scratch=$2
+bunny=/usr/share/glmark2/models/bunny.obj
+
+echo "== the unit on diffuse bounces of the bunny"
+"$build/ctusim" record "$bunny" -o "$scratch/bench.ctut" --size 256x256 --rays diffuse --skip-primary --designs mask-lut
+"$build/ctusim" bench "$scratch/bench.ctut"
+
+echo
+echo "== tree and closest hit beside Embree, one thread"
+for program in "$build"/tests/bench/*_benchmark; do
+  [ -x "$program" ] && "$program"
+done
+
+if [ -f build/scenes/kitchen/scene.pbrt ]; then
+  echo
+  echo "== recording one million rays of the kitchen"
+  time "$build/ctusim" record build/scenes/kitchen/scene.pbrt -o "$scratch/kitchen.ctut" --size 480x448 --rays diffuse --bounces 4
+fi
