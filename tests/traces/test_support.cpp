@@ -41,7 +41,7 @@ scene::Scene square_scene(float half) {
   return scene;
 }
 
-scene::Scene hair_scene() { return scene::load("gen:hair-ball?strands=60&segments=6&seed=3"); }
+scene::Scene hair_scene() { return scene::load("gen:hair-ball?strands=150&segments=4&thickness=0.08&seed=3"); }
 
 RecordOptions small_options() {
   RecordOptions options;
