@@ -1,0 +1,49 @@
+// box_test: the ray against the boxes of a node's four lanes, with outward rounding (model/intersect/slab_test.h).
+//
+//   in   node    a context and the node whose bytes have come
+//   out  tested  the lanes hit; times and boxes stay with the context
+//   latency box_test.latency (4 subtract, 4 multiply, 3 compare: 11), one node a cycle
+//   stalls: output_full
+#pragma once
+
+#include <bit>
+
+#include "model/pipeline/context.h"
+#include "model/pipeline/link.h"
+#include "model/pipeline/pipelined.h"
+#include "model/pipeline/unit_config.h"
+
+namespace ctu::pipeline {
+
+template <class Source, class Wiring>
+class BoxTest {
+ public:
+  typename Wiring::template In<RefToken> node;
+  typename Wiring::template Out<NodeToken> tested;
+
+  BoxTest(const UnitConfig& config, Contexts& contexts, Source& source)
+      : contexts_(contexts), source_(source), pipe_(config.box_test.latency) {}
+
+  bool step(Cycle now) {
+    return step_pipelined(now, node, tested, pipe_, account, [&](const RefToken& token) {
+      contexts_.move(token.slot, now, Place::BoxTest);
+      const std::uint8_t hits = source_.box_test(token.slot, token.ref);
+      pipe_.enter(now, {token.slot, hits, hits, 0});
+      ++nodes_;
+      box_hits_ += static_cast<unsigned>(std::popcount(hits));
+    });
+  }
+  Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
+  std::uint64_t nodes() const { return nodes_; }
+  std::uint64_t box_hits() const { return box_hits_; }
+
+  Account account{"box_test", {Activity::OutputFull}};
+
+ private:
+  Contexts& contexts_;
+  Source& source_;
+  Pipe<NodeToken> pipe_;
+  std::uint64_t nodes_ = 0, box_hits_ = 0;
+};
+
+}  // namespace ctu::pipeline

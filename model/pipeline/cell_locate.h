@@ -1,0 +1,63 @@
+// cell_locate: for each lane hit, where the ray's segment begins and ends in the box's grid (designs with tables), or
+// which cells it touches (comparators). Left out when there is no mask test.
+//
+//   in   tested   the lanes hit
+//   out  located  the same; keys, or touched cells, stay with the context
+//   A node with h lanes hit keeps the entrance for ceil(h / units) cycles, at least one. Latency cell_locate.latency
+//   (bisection on [t0, t1]: adders and comparisons only) or comparators.latency, counted from the last of these cycles.
+//   stalls: output_full
+#pragma once
+
+#include <bit>
+
+#include "model/pipeline/context.h"
+#include "model/pipeline/link.h"
+#include "model/pipeline/pipelined.h"
+#include "model/pipeline/unit_config.h"
+
+namespace ctu::pipeline {
+
+template <class Source, class Wiring>
+class CellLocate {
+ public:
+  typename Wiring::template In<NodeToken> tested;
+  typename Wiring::template Out<NodeToken> located;
+
+  CellLocate(const UnitConfig& config, Contexts& contexts, Source& source)
+      : contexts_(contexts), source_(source), units_(units(config)), pipe_(latency(config)) {}
+
+  bool step(Cycle now) {
+    return step_pipelined(now, tested, located, pipe_, account, [&](const NodeToken& token) {
+      contexts_.move(token.slot, now, Place::CellLocate);
+      source_.locate(token.slot, token.hits);
+      const int lanes = std::popcount(token.hits);
+      const int cycles = lanes == 0 ? 1 : (lanes + units_ - 1) / units_;
+      pipe_.enter(now, token, static_cast<Cycle>(cycles));
+      lanes_ += static_cast<unsigned>(lanes);
+      occupied_ += static_cast<unsigned>(cycles);
+    });
+  }
+  Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
+  std::uint64_t lanes() const { return lanes_; }
+  /// Cycles in which the entrance was taken.
+  std::uint64_t occupied() const { return occupied_; }
+
+  Account account{"cell_locate", {Activity::OutputFull}};
+
+ private:
+  static bool compares(const UnitConfig& config) { return config.mask_test.design == cull::Design::Comparators; }
+  static int units(const UnitConfig& config) {
+    return compares(config) ? config.comparators.units : config.cell_locate.units;
+  }
+  static int latency(const UnitConfig& config) {
+    return compares(config) ? config.comparators.latency : config.cell_locate.latency;
+  }
+
+  Contexts& contexts_;
+  Source& source_;
+  int units_;
+  Pipe<NodeToken> pipe_;
+  std::uint64_t lanes_ = 0, occupied_ = 0;
+};
+
+}  // namespace ctu::pipeline

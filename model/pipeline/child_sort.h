@@ -1,0 +1,41 @@
+// child_sort: the surviving lanes by (t0, lane), nearest first: a network of compare-and-swap cells.
+//
+//   in   survivors  the lanes that pass
+//   out  sorted     the same with their order
+//   latency child_sort.latency (five comparators in three rows), one node a cycle
+//   stalls: output_full
+#pragma once
+
+#include "model/pipeline/context.h"
+#include "model/pipeline/link.h"
+#include "model/pipeline/pipelined.h"
+#include "model/pipeline/unit_config.h"
+
+namespace ctu::pipeline {
+
+template <class Source, class Wiring>
+class ChildSort {
+ public:
+  typename Wiring::template In<NodeToken> survivors;
+  typename Wiring::template Out<NodeToken> sorted;
+
+  ChildSort(const UnitConfig& config, Contexts& contexts, Source& source)
+      : contexts_(contexts), source_(source), pipe_(config.child_sort.latency) {}
+
+  bool step(Cycle now) {
+    return step_pipelined(now, survivors, sorted, pipe_, account, [&](const NodeToken& token) {
+      contexts_.move(token.slot, now, Place::ChildSort);
+      pipe_.enter(now, {token.slot, token.hits, token.survivors, source_.child_order(token.slot, token.survivors)});
+    });
+  }
+  Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
+
+  Account account{"child_sort", {Activity::OutputFull}};
+
+ private:
+  Contexts& contexts_;
+  Source& source_;
+  Pipe<NodeToken> pipe_;
+};
+
+}  // namespace ctu::pipeline

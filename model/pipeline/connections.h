@@ -1,0 +1,56 @@
+// Which port is joined to which: the one list of the unit's links. Their numbers are their places in this list.
+#pragma once
+
+#include "model/pipeline/pipeline.h"
+
+namespace ctu::pipeline {
+
+/// Calls `join(name, out, in)` for every link of the unit, left-out parts excepted.
+template <class Source, class Wiring, class Join>
+void for_each_link(Stages<Source, Wiring>& stages, bool has_mask_test, bool has_spills, Join&& join) {
+  auto& ray_queue = Wiring::stage(stages.ray_queue);
+  auto& scheduler = Wiring::stage(stages.scheduler);
+  auto& node_fetch = Wiring::stage(stages.node_fetch);
+  auto& box_test = Wiring::stage(stages.box_test);
+  auto& cell_locate = Wiring::stage(stages.cell_locate);
+  auto& mask_test = Wiring::stage(stages.mask_test);
+  auto& child_sort = Wiring::stage(stages.child_sort);
+  auto& stack = Wiring::stage(stages.traversal_stack);
+  auto& leaf_fetch = Wiring::stage(stages.leaf_fetch);
+  auto& triangle_test = Wiring::stage(stages.triangle_test);
+  auto& hit_update = Wiring::stage(stages.hit_update);
+  auto& result_queue = Wiring::stage(stages.result_queue);
+  auto& memory_port = Wiring::stage(stages.memory_port);
+  constexpr int kNode = static_cast<int>(Client::NodeFetch), kLeaf = static_cast<int>(Client::LeafFetch),
+                kStack = static_cast<int>(Client::Stack);
+
+  join("ray_to_scheduler", ray_queue.to_scheduler, scheduler.from_rays);
+  join("ray_to_result", ray_queue.to_result, result_queue.from_rays);
+  join("result_to_ray", result_queue.freed, ray_queue.freed);
+  join("scheduler_to_node", scheduler.to_node_fetch, node_fetch.requests);
+  join("scheduler_to_leaf", scheduler.to_leaf_fetch, leaf_fetch.requests);
+  join("node_to_box", node_fetch.done, box_test.node);
+  if (has_mask_test) {
+    join("box_to_locate", box_test.tested, cell_locate.tested);
+    join("locate_to_mask", cell_locate.located, mask_test.located);
+    join("mask_to_sort", mask_test.survivors, child_sort.survivors);
+  } else {
+    join("box_to_sort", box_test.tested, child_sort.survivors);
+  }
+  join("sort_to_stack", child_sort.sorted, stack.sorted);
+  join("leaf_to_triangle", leaf_fetch.done, triangle_test.leaf);
+  join("triangle_to_hit", triangle_test.tested, hit_update.tested);
+  join("hit_to_stack", hit_update.done, stack.leaf_done);
+  join("stack_to_scheduler", stack.to_scheduler, scheduler.from_stack);
+  join("stack_to_result", stack.to_result, result_queue.from_stack);
+  join("node_to_memory", node_fetch.misses, memory_port.requests[kNode]);
+  join("memory_to_node", memory_port.answers[kNode], node_fetch.fills);
+  join("leaf_to_memory", leaf_fetch.misses, memory_port.requests[kLeaf]);
+  join("memory_to_leaf", memory_port.answers[kLeaf], leaf_fetch.fills);
+  if (has_spills) {
+    join("stack_to_memory", stack.spills, memory_port.requests[kStack]);
+    join("memory_to_stack", memory_port.answers[kStack], stack.refills);
+  }
+}
+
+}  // namespace ctu::pipeline

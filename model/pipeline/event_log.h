@@ -1,0 +1,47 @@
+// What happened, comparable between executions: every visit and every return with its cycle.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "model/pipeline/backpressure.h"
+#include "model/pipeline/cycle.h"
+#include "model/reference/step.h"
+
+namespace ctu::pipeline {
+
+struct Event {
+  Cycle cycle = 0;
+  std::uint64_t ray = 0;
+  std::uint32_t visit = 0;       ///< number of the visit within its ray; of a return, how many there were
+  bool is_return = false;
+  reference::Step step;          ///< of a return: `ref` holds the primitive found
+  bool operator==(const Event&) const = default;
+};
+
+/// Two sums over all events, so that the order of stages within a cycle does not matter: one over (cycle, ray, step), one
+/// over (ray, number of the visit, step), which no timing may change (contract 3). `keep_events` also keeps the events.
+class EventLog {
+ public:
+  explicit EventLog(bool keep_events = false) : keep_events_(keep_events) {}
+
+  void add(const Event& event) {
+    const std::uint64_t what = mix64(std::bit_cast<std::uint64_t>(event.step) + (event.is_return ? kReturnSalt : 0));
+    timed_hash_ += mix64(what ^ mix64(event.ray) ^ mix64(~event.cycle));
+    untimed_hash_ += mix64(what ^ mix64(event.ray) ^ mix64(~std::uint64_t{event.visit}));
+    if (keep_events_) events_.push_back(event);
+  }
+
+  std::uint64_t timed_hash() const { return timed_hash_; }
+  std::uint64_t untimed_hash() const { return untimed_hash_; }
+  const std::vector<Event>& events() const { return events_; }
+
+ private:
+  static constexpr std::uint64_t kReturnSalt = 0x5851F42D4C957F2Dull;
+  bool keep_events_;
+  std::uint64_t timed_hash_ = 0, untimed_hash_ = 0;
+  std::vector<Event> events_;
+};
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,166 @@
+#include "model/pipeline/exec_source.h"
+
+#include <bit>
+
+#include "model/intersect/slab_test.h"
+#include "model/intersect/triangle_test.h"
+
+namespace ctu::pipeline {
+
+using cull::Design;
+
+ExecSource::ExecSource(const UnitConfig& config, const UnitImage& image, const cull::MaskTester& tester,
+                       Contexts& contexts)
+    : image_(image),
+      contexts_(contexts),
+      tester_(tester),
+      design_(config.mask_test.design),
+      resolution_(tester.options().resolution),
+      ray_resolution_(tester.options().ray_resolution),
+      words_(cull::words_per_mask(tester.options().resolution)),
+      registers_(static_cast<std::size_t>(contexts.count())) {}
+
+bool ExecSource::begin(Slot slot) {
+  const Context& context = contexts_[slot];
+  Registers& r = registers_[slot];
+  const reference::StepList& list = context.block->steps;
+  r.ray = intersect::prepare_ray(context.block->rays[context.index]);
+  r.best = {};
+  r.best.t = r.ray.ray.tmax;
+  r.dropped = 0;
+  r.recorded = r.recorded_end = nullptr;
+  if (context.index < list.rays()) {
+    r.recorded = list.steps.data() + list.first_step[context.index];
+    r.recorded_end = list.steps.data() + list.first_step[context.index + 1];
+    r.recorded_tail = list.tail_dropped[context.index];
+  }
+  return r.ray.valid;
+}
+
+void ExecSource::visit(Slot slot, accel::ChildRef ref) {
+  Registers& r = registers_[slot];
+  r.step = {ref, r.dropped, 0, 0};
+  r.dropped = 0;
+}
+
+std::uint8_t ExecSource::box_test(Slot slot, accel::ChildRef node) {
+  Registers& r = registers_[slot];
+  if (design_ == Design::None)
+    intersect::slab_test_outer(r.ray, image_.boxes(node), r.best.t, r.times);
+  else
+    r.times = intersect::slab_test(r.ray, image_.boxes(node), r.best.t);
+  r.step.lanes = static_cast<std::uint8_t>(r.times.hit | (r.times.hit << 4));
+  return r.times.hit;
+}
+
+void ExecSource::locate(Slot slot, unsigned hits) {
+  Registers& r = registers_[slot];
+  const intersect::Box4& boxes = image_.boxes(r.step.ref);
+  for (unsigned rest = hits; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    if (design_ == Design::Comparators)
+      cull::comparator_mask(r.ray, r.times, boxes, lane, resolution_, r.touched[lane]);
+    else
+      r.key[lane] = cull::cell_locate(r.ray, r.times, boxes, lane, ray_resolution_).packed;
+  }
+}
+
+LaneKeys ExecSource::keys(Slot slot, unsigned hits) {
+  LaneKeys keys;
+  if (design_ == Design::Comparators) return keys;
+  for (unsigned rest = hits; rest != 0; rest &= rest - 1)
+    keys.key[keys.count++] = registers_[slot].key[std::countr_zero(rest)];
+  return keys;
+}
+
+bool ExecSource::passes(const Registers& r, int lane) const {
+  const std::uint64_t* object_mask = image_.mask(r.step.ref, lane);
+  std::uint64_t projected[kMaxWords];
+  const std::uint64_t* ray_mask = r.touched[lane];
+  const cull::CellKey key{r.key[lane]};
+  if (design_ == Design::MaskLut) {
+    ray_mask = tester_.ray_mask_table()->row(tester_.ray_mask_table()->row_index(key));
+  } else if (design_ == Design::Projection) {
+    tester_.projection_table()->ray_mask(key, projected);
+    ray_mask = projected;
+  }
+  std::uint64_t common = 0;
+  for (int word = 0; word < words_; ++word) common |= ray_mask[word] & object_mask[word];
+  return common != 0;
+}
+
+MaskAnswer ExecSource::mask_test(Slot slot, unsigned hits) {
+  Registers& r = registers_[slot];
+  MaskAnswer answer;
+  for (unsigned rest = hits; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    const auto bit = static_cast<std::uint8_t>(1u << lane);
+    const bool uncertain = design_ != Design::Comparators && cull::CellKey{r.key[lane]}.uncertain();
+    if (uncertain) answer.uncertain |= bit;
+    if (uncertain || passes(r, lane)) answer.survivors |= bit;
+  }
+  r.step.lanes = static_cast<std::uint8_t>(hits | (static_cast<unsigned>(answer.survivors) << 4));
+  r.step.detail = static_cast<std::uint16_t>(static_cast<unsigned>(answer.uncertain) << 8);
+  return answer;
+}
+
+std::uint8_t ExecSource::child_order(Slot slot, unsigned survivors) {
+  Registers& r = registers_[slot];
+  // The place of a lane is the number of survivors before it by (t0, lane): what six comparators give at once.
+  unsigned order = 0;
+  for (int lane = 0; lane < intersect::kLanes; ++lane) {
+    if (((survivors >> lane) & 1u) == 0) continue;
+    int place = 0;
+    for (int other = 0; other < intersect::kLanes; ++other)
+      if (other != lane && ((survivors >> other) & 1u) != 0)
+        place += other < lane ? r.times.t0[other] <= r.times.t0[lane] : r.times.t0[other] < r.times.t0[lane];
+    order |= static_cast<unsigned>(lane) << (2 * place);
+  }
+  r.step.detail = static_cast<std::uint16_t>(r.step.detail | order);
+  return static_cast<std::uint8_t>(order);
+}
+
+void ExecSource::pushed(Slot slot, int position, int lane) {
+  registers_[slot].stack_t0[position] = registers_[slot].times.t0[lane];
+}
+
+bool ExecSource::drops(Slot slot, int position) {
+  Registers& r = registers_[slot];
+  if (r.stack_t0[position] <= r.best.t) return false;
+  ++r.dropped;
+  return true;
+}
+
+ExecSource::Test ExecSource::triangle_test(Slot slot, accel::ChildRef leaf, int index, bool last) {
+  // The tests of a leaf are under way together, so all see the best hit from before the leaf. The outcome is the same as
+  // with the best hit of the moment: what lies beyond it does not replace it.
+  const Registers& r = registers_[slot];
+  const accel::LeafTriangle& triangle = image_.triangle(accel::leaf_first(leaf) + static_cast<unsigned>(index));
+  const auto result = intersect::triangle_test(r.ray, triangle.v0, triangle.v1, triangle.v2, r.best.t);
+  return {slot, static_cast<std::uint8_t>(index), last, result.hit, {result.t, result.u, result.v, triangle.primitive}};
+}
+
+void ExecSource::update(const Test& test) {
+  Registers& r = registers_[test.slot];
+  r.step.lanes = static_cast<std::uint8_t>(test.index + 1);
+  if (!test.hit || !intersect::replaces(test.candidate.t, test.candidate.primitive, r.best)) return;
+  r.best = test.candidate;
+  r.step.detail = static_cast<std::uint16_t>(r.step.detail | (1u << test.index));
+}
+
+reference::Step ExecSource::finish_visit(Slot slot) {
+  Registers& r = registers_[slot];
+  if (r.recorded != nullptr) {
+    if (r.recorded == r.recorded_end || !(*r.recorded == r.step)) ++event_mismatches_;
+    if (r.recorded != r.recorded_end) ++r.recorded;
+  }
+  return r.step;
+}
+
+intersect::Hit ExecSource::finish(Slot slot, const accel::Image&) {
+  const Registers& r = registers_[slot];
+  if (r.recorded != nullptr && (r.recorded != r.recorded_end || r.dropped != r.recorded_tail)) ++event_mismatches_;
+  return r.best;
+}
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,70 @@
+// Outcomes computed from rays and image, with the arithmetic of model/intersect and model/cull. Where steps are recorded
+// too, every event is compared with the recorded one.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/cull/mask_test.h"
+#include "model/pipeline/outcome.h"
+#include "model/pipeline/unit_config.h"
+#include "model/pipeline/unit_image.h"
+
+namespace ctu::pipeline {
+
+inline constexpr int kMaxStackEntries = 256;  ///< of one ray, on chip and spilled
+
+class ExecSource {
+ public:
+  using Test = ComputedTest;
+  static constexpr bool kComputes = true;
+
+  ExecSource(const UnitConfig& config, const UnitImage& image, const cull::MaskTester& tester, Contexts& contexts);
+
+  bool begin(Slot slot);
+  void visit(Slot slot, accel::ChildRef ref);
+  std::uint8_t box_test(Slot slot, accel::ChildRef node);
+  void locate(Slot slot, unsigned hits);
+  LaneKeys keys(Slot slot, unsigned hits);
+  MaskAnswer mask_test(Slot slot, unsigned hits);
+  std::uint8_t child_order(Slot slot, unsigned survivors);
+  void pushed(Slot slot, int position, int lane);
+  void begin_pop(Slot) {}
+  bool drops(Slot slot, int position);
+  Test triangle_test(Slot slot, accel::ChildRef leaf, int index, bool last);
+  void update(const Test& test);
+  bool has_hit(Slot slot) const { return registers_[slot].best.primitive != intersect::kNoPrimitive; }
+  reference::Step finish_visit(Slot slot);
+  intersect::Hit finish(Slot slot, const accel::Image& bytes);
+  /// Visits, and drops at the end of a ray, that differ from the recorded ones.
+  std::uint64_t event_mismatches() const { return event_mismatches_; }
+
+ private:
+  /// A ray mask of the largest resolution.
+  static constexpr int kMaxWords = cull::words_per_mask(cull::kMaxResolution);
+
+  struct Registers {
+    intersect::PreparedRay ray;
+    intersect::SlabTimes times;
+    intersect::Hit best;
+    reference::Step step;                     ///< the visit's event so far
+    const reference::Step *recorded = nullptr, *recorded_end = nullptr;
+    std::uint8_t recorded_tail = 0;
+    std::uint8_t dropped = 0;                 ///< since the last visit
+    std::uint32_t key[intersect::kLanes] = {};
+    std::uint64_t touched[intersect::kLanes][kMaxWords] = {};  ///< of comparators
+    float stack_t0[kMaxStackEntries] = {};
+  };
+
+  bool passes(const Registers& r, int lane) const;
+
+  const UnitImage& image_;
+  Contexts& contexts_;
+  const cull::MaskTester& tester_;
+  cull::Design design_;
+  int resolution_, ray_resolution_, words_;
+  std::vector<Registers> registers_;
+  std::uint64_t event_mismatches_ = 0;
+};
+
+}  // namespace ctu::pipeline

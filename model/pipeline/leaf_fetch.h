@@ -1,0 +1,16 @@
+// leaf_fetch: brings the bytes of all triangles of a leaf through leaf_cache. Ports and timing: line_fetch.h.
+#pragma once
+
+#include "model/pipeline/line_fetch.h"
+
+namespace ctu::pipeline {
+
+template <class Wiring>
+class LeafFetch : public LineFetch<LeafToken, Wiring> {
+ public:
+  LeafFetch(const UnitConfig& config, const UnitImage& image, Contexts& contexts)
+      : LineFetch<LeafToken, Wiring>("leaf_fetch", config.leaf_cache, config.memory.line_bytes, image, contexts,
+                                     Place::LeafFetchHit, Place::LeafFetchMiss) {}
+};
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,205 @@
+// What node_fetch and leaf_fetch do: bring the lines that hold a node or a leaf.
+//
+//   in   requests   context and reference
+//   in   fills      lines that memory has answered, by miss register
+//   out  misses     lines asked of memory; the id is the miss register
+//   out  done       contexts all of whose lines are there, in the order of completion
+//   A token taken in cycle t looks up its first line in t, and up to `ports` lines a cycle. When the last of n lines has
+//   been looked up, in cycle t + ceil(n / ports) - 1, and all of them hit, the data are read hit_latency cycles later, and
+//   the token leaves in the cycle behind that. A line that misses takes a miss register and goes to memory, or joins the
+//   register that waits for the same line. A line that comes back takes the tag port for its cycle; contexts that waited
+//   for nothing else can leave in the next cycle, one a cycle, in turn by number.
+//   stalls: mshrs_full, memory_port_full, fill_port, output_full, memory
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "model/pipeline/cache.h"
+#include "model/pipeline/context.h"
+#include "model/pipeline/link.h"
+#include "model/pipeline/unit_config.h"
+#include "model/pipeline/unit_image.h"
+
+namespace ctu::pipeline {
+
+/// `Done` is the token handed on: RefToken for nodes, LeafToken for leaves.
+template <class Done, class Wiring>
+class LineFetch {
+ public:
+  typename Wiring::template In<RefToken> requests;
+  typename Wiring::template In<MemoryResponse> fills;
+  typename Wiring::template Out<MemoryRequest> misses;
+  typename Wiring::template Out<Done> done;
+
+  struct Counters {
+    std::uint64_t lookups = 0, hits = 0, merges = 0, fills = 0, visits = 0, bytes = 0;
+  };
+
+  LineFetch(std::string_view name, const CacheConfig& cache, int line_bytes, const UnitImage& image, Contexts& contexts,
+            Place hit_place, Place miss_place)
+      : account{name,
+                {Activity::OutputFull, Activity::MshrsFull, Activity::MemoryPortFull, Activity::FillPort,
+                 Activity::Memory}},
+        image_(image),
+        contexts_(contexts),
+        hit_place_(hit_place),
+        miss_place_(miss_place),
+        line_shift_(std::countr_zero(static_cast<unsigned>(line_bytes))),
+        ports_(cache.ports),
+        hit_latency_(static_cast<Cycle>(cache.hit_latency)),
+        tags_(cache, line_bytes),
+        mshrs_(cache.mshrs) {}
+
+  bool step(Cycle now) {
+    bool blocked_by_output = false;
+    bool moved = present(now, blocked_by_output);
+    const bool filled = fill(now);
+    moved |= filled;
+    moved |= read_data(now);
+    Activity lookup = Activity::Idle;
+    if (filled) {
+      if (active_ || requests.can_pop(now)) lookup = Activity::FillPort;
+    } else {
+      lookup = look_up(now);
+      moved |= lookup == Activity::Busy || looked_up_something_;
+    }
+    account.set(now, activity(lookup, moved, blocked_by_output));
+    return moved;
+  }
+  Cycle next_event(Cycle) const { return reading_head_ == reading_tail_ ? kNever : reading_[reading_head_ & kRingMask].due; }
+
+  const Counters& counters() const { return counters_; }
+  const CacheTags& tags() const { return tags_; }
+  const MissRegisters& mshrs() const { return mshrs_; }
+
+  Account account;
+
+ private:
+  static constexpr std::uint32_t kRingMask = kMaxContexts - 1;
+
+  bool present(Cycle now, bool& blocked) {
+    if (finished_.empty()) return false;
+    if (!done.can_push(now)) {
+      blocked = true;
+      return false;
+    }
+    const int slot = finished_.next_from(turn_);
+    finished_.remove(slot);
+    turn_ = (slot + 1) & (kMaxContexts - 1);
+    done.push(now, Done{ref_of_[static_cast<std::size_t>(slot)], static_cast<Slot>(slot)});
+    return true;
+  }
+
+  bool fill(Cycle now) {
+    if (!fills.can_pop(now)) return false;
+    LineNumber line;
+    const SlotSet waiters = mshrs_.release(fills.front().id, line);
+    fills.pop(now);
+    tags_.install(line);
+    ++counters_.fills;
+    waiters.for_each([&](int slot) { arrived(slot); });
+    return true;
+  }
+
+  bool read_data(Cycle now) {
+    if (reading_head_ == reading_tail_ || reading_[reading_head_ & kRingMask].due > now) return false;
+    arrived(reading_[reading_head_++ & kRingMask].slot);
+    return true;
+  }
+
+  /// One of the things that the context waits for is there: a line from memory, or the end of its data reads.
+  void arrived(int slot) {
+    if (--waiting_for_[static_cast<std::size_t>(slot)] == 0) finished_.add(slot);
+  }
+
+  /// Busy: went on as far as the ports allow; Idle: nothing to look up; else why it stands.
+  Activity look_up(Cycle now) {
+    looked_up_something_ = false;
+    if (!active_) {
+      if (!requests.can_pop(now)) return Activity::Idle;
+      start(now, requests.front());
+      requests.pop(now);
+      looked_up_something_ = true;  // the request at least has moved
+    }
+    for (int port = 0; port < ports_; ++port) {
+      const Activity outcome = look_up_line(now);
+      if (outcome != Activity::Busy) return outcome;
+      looked_up_something_ = true;
+      if (line_++ == last_line_) {
+        reading_[reading_tail_++ & kRingMask] = {slot_, now + hit_latency_};
+        active_ = false;
+        break;
+      }
+    }
+    return Activity::Busy;
+  }
+
+  void start(Cycle now, const RefToken& token) {
+    const ByteSpan span = image_.bytes(token.ref);
+    active_ = true;
+    slot_ = token.slot;
+    ref_of_[slot_] = token.ref;
+    line_ = span.first >> line_shift_;
+    last_line_ = span.last >> line_shift_;
+    waiting_for_[slot_] = 1;  // the end of its data reads
+    contexts_.move(slot_, now, hit_place_);
+    ++counters_.visits;
+    counters_.bytes += span.last - span.first + 1;
+  }
+
+  Activity look_up_line(Cycle now) {
+    if (tags_.touch(line_)) {
+      ++counters_.hits;
+    } else {
+      int number = mshrs_.find(line_);
+      if (number >= 0) {
+        ++counters_.merges;
+      } else {
+        if (mshrs_.full()) return Activity::MshrsFull;
+        if (!misses.can_push(now)) return Activity::MemoryPortFull;
+        number = mshrs_.allocate(line_);
+        misses.push(now, {line_ << line_shift_, static_cast<std::uint16_t>(number), false});
+      }
+      mshrs_.wait(number, slot_);
+      ++waiting_for_[slot_];
+      contexts_[slot_].place = miss_place_;
+    }
+    ++counters_.lookups;
+    return Activity::Busy;
+  }
+
+  Activity activity(Activity lookup, bool moved, bool blocked_by_output) const {
+    if (lookup != Activity::Idle && lookup != Activity::Busy) return lookup;
+    if (lookup == Activity::Busy || moved) return Activity::Busy;
+    if (blocked_by_output) return Activity::OutputFull;
+    if (reading_head_ != reading_tail_ || !finished_.empty()) return Activity::Busy;
+    return mshrs_.none_in_use() ? Activity::Idle : Activity::Memory;
+  }
+
+  struct Read {
+    Slot slot;
+    Cycle due;
+  };
+
+  const UnitImage& image_;
+  Contexts& contexts_;
+  Place hit_place_, miss_place_;
+  int line_shift_, ports_;
+  Cycle hit_latency_;
+  CacheTags tags_;
+  MissRegisters mshrs_;
+  bool active_ = false, looked_up_something_ = false;
+  Slot slot_ = 0;
+  LineNumber line_ = 0, last_line_ = 0;
+  std::array<Read, kMaxContexts> reading_{};
+  std::uint32_t reading_head_ = 0, reading_tail_ = 0;
+  std::array<accel::ChildRef, kMaxContexts> ref_of_{};
+  std::array<std::uint8_t, kMaxContexts> waiting_for_{};
+  SlotSet finished_;
+  int turn_ = 0;
+  Counters counters_;
+};
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,89 @@
+// The link between two stages: a FIFO of two entries whose full and empty are judged on the state at the start of the
+// cycle. What was pushed in a cycle can be popped in the next one, the room made by a pop can be used in the next one;
+// so the order in which stages are stepped within a cycle cannot matter, and the hardware twin is a FIFO of two
+// registers with registered valid and ready. One push and one pop a cycle at most.
+#pragma once
+
+#include <cstdint>
+
+#include "model/pipeline/backpressure.h"
+#include "model/pipeline/cycle.h"
+
+namespace ctu::pipeline {
+
+template <class T>
+class Link {
+ public:
+  bool can_pop(Cycle now) const { return written_ - read_ > static_cast<std::uint32_t>(last_push_ == now); }
+  bool can_push(Cycle now) const { return written_ - read_ + static_cast<std::uint32_t>(last_pop_ == now) < 2u; }
+  const T& front() const { return entry_[read_ & 1u]; }
+  void pop(Cycle now) {
+    ++read_;
+    last_pop_ = now;
+  }
+  void push(Cycle now, const T& value) {
+    entry_[written_ & 1u] = value;
+    ++written_;
+    last_push_ = now;
+  }
+  int occupancy() const { return static_cast<int>(written_ - read_); }
+
+ private:
+  T entry_[2] = {};
+  std::uint32_t written_ = 0, read_ = 0;
+  Cycle last_push_ = kNever, last_pop_ = kNever;
+};
+
+/// How stages and links are joined. A stage names its ports Wiring::In<T> and Wiring::Out<T> and knows nothing else, so
+/// the same stage runs over plain links, over links that refuse at random, and over SystemC signals (model/unit).
+struct PlainWiring {
+  template <class T>
+  struct In {
+    Link<T>* link = nullptr;
+    bool can_pop(Cycle now) const { return link->can_pop(now); }
+    const T& front() const { return link->front(); }
+    void pop(Cycle now) { link->pop(now); }
+  };
+  template <class T>
+  struct Out {
+    Link<T>* link = nullptr;
+    bool can_push(Cycle now) const { return link->can_push(now); }
+    void push(Cycle now, const T& value) { link->push(now, value); }
+  };
+  /// What holds a stage: here the stage itself.
+  template <class Stage>
+  using Holder = Stage;
+  template <class Stage>
+  static Stage& stage(Stage& holder) {
+    return holder;
+  }
+};
+
+/// The same over links that refuse as Backpressure says.
+struct StallingWiring {
+  template <class T>
+  struct In {
+    Link<T>* link = nullptr;
+    const Backpressure* backpressure = nullptr;
+    int number = 0;
+    bool can_pop(Cycle now) const { return link->can_pop(now) && !backpressure->refuses(number, Side::Pop, now); }
+    const T& front() const { return link->front(); }
+    void pop(Cycle now) { link->pop(now); }
+  };
+  template <class T>
+  struct Out {
+    Link<T>* link = nullptr;
+    const Backpressure* backpressure = nullptr;
+    int number = 0;
+    bool can_push(Cycle now) const { return link->can_push(now) && !backpressure->refuses(number, Side::Push, now); }
+    void push(Cycle now, const T& value) { link->push(now, value); }
+  };
+  template <class Stage>
+  using Holder = Stage;
+  template <class Stage>
+  static Stage& stage(Stage& holder) {
+    return holder;
+  }
+};
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,98 @@
+// memory_port: the unit's one port to memory. Node fetch, leaf fetch and the stack's spills take turns at it.
+//
+//   in   requests[client], out answers[client]
+//   One request a cycle goes to memory, chosen round-robin among the clients whose request memory can take; one answer a
+//   cycle comes back, in the order in which memory has them ready. An answer ready in cycle t is pushed in t.
+//   stalls: output_full (an answer is ready and its client takes none), memory (requests wait for memory)
+#pragma once
+
+#include "model/pipeline/accounting.h"
+#include "model/pipeline/link.h"
+#include "model/pipeline/memory_banked.h"
+#include "model/pipeline/memory_client.h"
+#include "model/pipeline/memory_ideal.h"
+#include "model/pipeline/unit_config.h"
+
+namespace ctu::pipeline {
+
+template <class Wiring>
+class MemoryPort {
+ public:
+  typename Wiring::template In<MemoryRequest> requests[kClients];
+  typename Wiring::template Out<MemoryResponse> answers[kClients];
+
+  /// `clients`: how many of the clients are there; without spills the stack is left out.
+  MemoryPort(const UnitConfig& config, int clients)
+      : clients_(clients), banked_(config.memory.model == MemoryModel::Banked), ideal_memory_(config.memory),
+        banked_memory_(config.memory) {}
+
+  bool step(Cycle now) { return banked_ ? step_over(banked_memory_, now) : step_over(ideal_memory_, now); }
+  Cycle next_event(Cycle now) const {
+    return banked_ ? banked_memory_.next_event(now) : ideal_memory_.next_event(now);
+  }
+
+  std::uint64_t requests_of(Client client) const { return granted_[static_cast<int>(client)]; }
+  std::uint64_t writes() const { return writes_; }
+  const BankedMemory* banked() const { return banked_ ? &banked_memory_ : nullptr; }
+
+  Account account{"memory_port", {Activity::OutputFull, Activity::Memory}};
+
+ private:
+  template <class Memory>
+  bool step_over(Memory& memory, Cycle now) {
+    bool moved = false, blocked = false;
+    if (memory.answer_ready(now)) {
+      const ClientAnswer& answer = memory.answer();
+      auto& out = answers[static_cast<int>(answer.client)];
+      if (out.can_push(now)) {
+        out.push(now, {answer.id});
+        memory.take_answer();
+        moved = true;
+      } else {
+        blocked = true;
+      }
+    }
+    const Grant grant = arbitrate(memory, now);
+    moved |= memory.work(now);
+    moved |= grant == Grant::Given;
+    account.set(now, blocked                    ? Activity::OutputFull
+                     : grant == Grant::Refused ? Activity::Memory
+                     : moved || !memory.empty() ? Activity::Busy
+                                                : Activity::Idle);
+    return moved;
+  }
+
+  enum class Grant : std::uint8_t { None, Given, Refused };
+
+  template <class Memory>
+  Grant arbitrate(Memory& memory, Cycle now) {
+    Grant outcome = Grant::None;
+    for (int i = 0, client = turn_; i < clients_; ++i, client = client + 1 == clients_ ? 0 : client + 1) {
+      auto& in = requests[client];
+      if (!in.can_pop(now)) continue;
+      const ClientRequest request{static_cast<Client>(client), in.front()};
+      if (!takes(memory, now, request.request.address)) {
+        outcome = Grant::Refused;
+        continue;
+      }
+      in.pop(now);
+      memory.accept(now, request);
+      ++granted_[client];
+      writes_ += request.request.write;
+      turn_ = client + 1 == clients_ ? 0 : client + 1;
+      return Grant::Given;
+    }
+    return outcome;
+  }
+  static bool takes(const IdealMemory& memory, Cycle now, std::uint64_t) { return memory.can_accept(now); }
+  static bool takes(const BankedMemory& memory, Cycle, std::uint64_t address) { return memory.can_accept(address); }
+
+  int clients_, turn_ = 0;
+  bool banked_;
+  IdealMemory ideal_memory_;
+  BankedMemory banked_memory_;
+  std::uint64_t granted_[kClients] = {};
+  std::uint64_t writes_ = 0;
+};
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,32 @@
+// The step that every rigid pipeline of the unit takes: the last register leaves if it can, the first one fills.
+#pragma once
+
+#include "model/pipeline/accounting.h"
+#include "model/pipeline/cycle.h"
+#include "model/pipeline/pipe.h"
+
+namespace ctu::pipeline {
+
+/// `take(pipe, token)` enters what the token becomes. Whether anything moved.
+template <class In, class Out, class T, class Take>
+bool step_pipelined(Cycle now, In& in, Out& out, Pipe<T>& pipe, Account& account, Take&& take) {
+  bool moved = false;
+  if (pipe.exit_ready(now)) {
+    if (!out.can_push(now)) {
+      pipe.freeze(now);
+      account.set(now, Activity::OutputFull);
+      return false;
+    }
+    out.push(now, pipe.leave(now));
+    moved = true;
+  }
+  if (in.can_pop(now) && pipe.can_enter(now)) {
+    take(in.front());
+    in.pop(now);
+    moved = true;
+  }
+  account.set(now, moved || !pipe.empty() ? Activity::Busy : Activity::Idle);
+  return moved;
+}
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,135 @@
+// ray_queue: gives each ray of the feed, in order, a free context, and sets up its registers (reciprocal bounds, shear,
+// the root). A ray that the unit does not accept goes straight to the result as a miss.
+//
+//   in   freed         contexts that result_queue has emptied
+//   out  to_scheduler  the root, for each ray
+//   out  to_result     rays that visit nothing
+//   latency ray_setup.latency, one ray each ray_setup.interval cycles (the directed divider is shared by the axes)
+//   stalls: no_context, output_full
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "model/pipeline/context.h"
+#include "model/pipeline/link.h"
+#include "model/pipeline/pipe.h"
+#include "model/pipeline/unit_config.h"
+#include "model/reference/ray_block.h"
+
+namespace ctu::pipeline {
+
+template <class Source, class Wiring>
+class RayQueue {
+ public:
+  typename Wiring::template In<SlotToken> freed;
+  typename Wiring::template Out<RefToken> to_scheduler;
+  typename Wiring::template Out<SlotToken> to_result;
+
+  RayQueue(const UnitConfig& config, Contexts& contexts, Source& source, reference::RayFeed& feed, bool needs_steps)
+      : contexts_(contexts),
+        source_(source),
+        feed_(feed),
+        needs_steps_(needs_steps),
+        interval_(static_cast<Cycle>(config.ray_setup.interval)),
+        setup_(config.ray_setup.latency) {
+    for (int slot = 0; slot < contexts.count(); ++slot) free_.push_back(static_cast<Slot>(slot));
+    next_block();
+  }
+
+  bool step(Cycle now) {
+    bool moved = false;
+    const bool leaves = setup_.exit_ready(now);
+    if (leaves && !leave(now)) {
+      setup_.freeze(now);
+      account.set(now, Activity::OutputFull);
+    } else {
+      moved = leaves;
+      const bool waits = block_ != nullptr && setup_.can_enter(now);
+      if (waits && free_count_ > 0) {
+        take(now);
+        moved = true;
+      }
+      account.set(now, waits && !moved && setup_.empty()          ? Activity::NoContext
+                       : moved || !setup_.empty() ? Activity::Busy
+                                                  : Activity::Idle);
+    }
+    if (freed.can_pop(now)) {
+      free_[(first_free_ + free_count_++) % free_.size()] = freed.front().slot;
+      freed.pop(now);
+      moved = true;
+    }
+    return moved;
+  }
+  Cycle next_event(Cycle now) const { return setup_.next_event(now); }
+
+  /// Every ray of the feed has been given a context.
+  bool exhausted() const { return block_ == nullptr; }
+  std::uint64_t rays_taken() const { return rays_taken_; }
+
+  Account account{"ray_queue", {Activity::OutputFull, Activity::NoContext}};
+
+ private:
+  struct Prepared {
+    Slot slot;
+    bool valid;
+  };
+
+  bool leave(Cycle now) {
+    const Prepared& prepared = setup_.front();
+    if (prepared.valid ? !to_scheduler.can_push(now) : !to_result.can_push(now)) return false;
+    if (prepared.valid) {
+      to_scheduler.push(now, {0, prepared.slot});
+    } else {
+      contexts_.move(prepared.slot, now, Place::Result);
+      to_result.push(now, {prepared.slot});
+    }
+    setup_.leave(now);
+    return true;
+  }
+
+  void take(Cycle now) {
+    const Slot slot = free_[first_free_];
+    first_free_ = (first_free_ + 1) % free_.size();
+    --free_count_;
+    Context& context = contexts_[slot];
+    if (context.block != block_) context.block = block_;
+    context.index = index_;
+    context.ray = block_->first_ray + index_;
+    context.any_hit = block_->rays[index_].kind == intersect::RayKind::AnyHit;
+    context.visits = 0;
+    context.depth = context.spilled = 0;
+    contexts_.occupy(slot, now);
+    setup_.enter(now, {slot, source_.begin(slot)}, interval_);
+    ++rays_taken_;
+    if (++index_ == block_->rays.size()) next_block();
+  }
+
+  void next_block() {
+    index_ = 0;
+    do {
+      block_ = feed_.next();
+    } while (block_ != nullptr && block_->rays.empty());
+    if (block_ == nullptr) return;
+    if (block_->expected.size() != block_->rays.size())
+      throw Error("ray block at ray " + std::to_string(block_->first_ray), "expected hits are missing",
+                  "record the trace again");
+    if (needs_steps_ && block_->steps.rays() < block_->rays.size())
+      throw Error("ray block at ray " + std::to_string(block_->first_ray), "recorded steps are missing",
+                  "record them, or let the unit compute (exec)");
+  }
+
+  Contexts& contexts_;
+  Source& source_;
+  reference::RayFeed& feed_;
+  bool needs_steps_;
+  Cycle interval_;
+  Pipe<Prepared> setup_;
+  std::vector<Slot> free_;  // a ring
+  std::size_t first_free_ = 0, free_count_ = static_cast<std::size_t>(contexts_.count());
+  std::shared_ptr<const reference::RayBlock> block_;
+  std::uint32_t index_ = 0;
+  std::uint64_t rays_taken_ = 0;
+};
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,134 @@
+// Outcomes from the recorded steps: no arithmetic, and every reference the unit pops is compared with the recorded one.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/intersect/triangle_test.h"
+#include "model/pipeline/outcome.h"
+#include "model/pipeline/unit_config.h"
+#include "model/pipeline/unit_image.h"
+
+namespace ctu::pipeline {
+
+class ReplaySource {
+ public:
+  using Test = RecordedTest;
+  static constexpr bool kComputes = false;
+
+  ReplaySource(const UnitConfig& config, const UnitImage& image, const cull::MaskTester&, Contexts& contexts)
+      : image_(image),
+        contexts_(contexts),
+        keyed_(cull::event_class(config.mask_test.design) == cull::Design::MaskLut),
+        registers_(static_cast<std::size_t>(contexts.count())) {}
+
+  /// Sets up a context for its ray; whether the ray visits anything.
+  bool begin(Slot slot) {
+    const Context& context = contexts_[slot];
+    const reference::StepList& list = context.block->steps;
+    Registers& r = registers_[slot];
+    r.step = list.steps.data() + list.first_step[context.index];
+    r.end = list.steps.data() + list.first_step[context.index + 1];
+    r.tail_dropped = list.tail_dropped[context.index];
+    if (keyed_) {
+      r.key = list.keys.data() + list.first_key[context.index];
+      r.key_end = list.keys.data() + list.first_key[context.index + 1];
+    }
+    r.drops_left = 0;
+    r.best = intersect::kNoPrimitive;
+    return r.step != r.end;
+  }
+
+  /// A visit begins.
+  void visit(Slot slot, accel::ChildRef ref) {
+    const Registers& r = registers_[slot];
+    if (r.step == r.end) throw_event_mismatch(contexts_[slot], "the unit visits more than was recorded");
+    if (r.step->ref != ref || r.drops_left != 0)
+      throw_event_mismatch(contexts_[slot], "the unit visits " + std::to_string(ref) + ", recorded is " +
+                                                std::to_string(r.step->ref));
+  }
+
+  std::uint8_t box_test(Slot slot, accel::ChildRef) { return static_cast<std::uint8_t>(registers_[slot].step->box_hits()); }
+  void locate(Slot, unsigned) {}
+  LaneKeys keys(Slot slot, unsigned hits) {
+    LaneKeys keys;
+    if (!keyed_) return keys;
+    Registers& r = registers_[slot];
+    keys.count = std::popcount(hits);
+    if (r.key_end - r.key < keys.count) throw_event_mismatch(contexts_[slot], "a recorded table key is missing");
+    for (int i = 0; i < keys.count; ++i) keys.key[i] = *r.key++;
+    return keys;
+  }
+  MaskAnswer mask_test(Slot slot, unsigned) {
+    const reference::Step& step = *registers_[slot].step;
+    return {static_cast<std::uint8_t>(step.survivors()), static_cast<std::uint8_t>(step.uncertain())};
+  }
+  std::uint8_t child_order(Slot slot, unsigned) { return static_cast<std::uint8_t>(registers_[slot].step->detail & 0xFFu); }
+
+  void pushed(Slot, int, int) {}
+  /// A pop begins: `drops` of the recording are due first.
+  void begin_pop(Slot slot) {
+    Registers& r = registers_[slot];
+    r.drops_left = r.step == r.end ? r.tail_dropped : r.step->dropped;
+  }
+  /// Whether the entry at `position` lies beyond the best hit.
+  bool drops(Slot slot, int) {
+    Registers& r = registers_[slot];
+    if (r.drops_left == 0) return false;
+    --r.drops_left;
+    return true;
+  }
+
+  Test triangle_test(Slot slot, accel::ChildRef, int index, bool last) {
+    return {slot, static_cast<std::uint8_t>(index), last};
+  }
+  /// The outcome of a test reaches the best hit.
+  void update(const Test& test) {
+    Registers& r = registers_[test.slot];
+    if ((r.step->became_best() >> test.index) & 1u) {
+      r.best_triangle = accel::leaf_first(r.step->ref) + test.index;
+      r.best = image_.primitive(r.best_triangle);
+    }
+  }
+  bool has_hit(Slot slot) const { return registers_[slot].best != intersect::kNoPrimitive; }
+
+  /// The visit is over: its event. `dropped` entries went before it.
+  reference::Step finish_visit(Slot slot) { return *registers_[slot].step++; }
+
+  /// The ray is over. Its hit: the recording says which triangle; t, u and v follow from ray and triangle, so they are
+  /// the expected ones when the triangle is.
+  intersect::Hit finish(Slot slot, const accel::Image& bytes) {
+    const Registers& r = registers_[slot];
+    const Context& context = contexts_[slot];
+    if (r.step != r.end) throw_event_mismatch(context, "the unit ends before the recording does");
+    if (r.drops_left != 0) throw_event_mismatch(context, "the recording drops entries that the stack does not hold");
+    const intersect::Hit& expected = context.block->expected[context.index];
+    if (r.best == expected.primitive) return expected;
+    const intersect::Ray& ray = context.block->rays[context.index];
+    intersect::Hit hit;
+    hit.t = ray.tmax;
+    if (r.best == intersect::kNoPrimitive) return hit;
+    const accel::LeafTriangle triangle = accel::read_triangle(bytes, r.best_triangle);
+    const auto result =
+        intersect::triangle_test(intersect::prepare_ray(ray), triangle.v0, triangle.v1, triangle.v2, ray.tmax);
+    return {result.t, result.u, result.v, triangle.primitive};
+  }
+  std::uint64_t event_mismatches() const { return 0; }
+
+ private:
+  struct Registers {
+    const reference::Step *step = nullptr, *end = nullptr;
+    const std::uint32_t *key = nullptr, *key_end = nullptr;
+    std::uint32_t best = intersect::kNoPrimitive, best_triangle = 0;
+    std::uint8_t tail_dropped = 0, drops_left = 0;
+  };
+
+  const UnitImage& image_;
+  Contexts& contexts_;
+  bool keyed_;
+  std::vector<Registers> registers_;
+};
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,119 @@
+// From the counters of the stages to the result that users see.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/pipeline/pipeline.h"
+#include "model/pipeline/result.h"
+
+namespace ctu::pipeline {
+
+/// Collects counters under their stage's name.
+class CounterList {
+ public:
+  void add(std::string_view name, std::string_view unit, std::string_view description, std::uint64_t value) {
+    counters_.push_back({std::string(name), std::string(unit), std::string(description), value});
+  }
+  void add_cache(const std::string& stage, std::uint64_t lookups, std::uint64_t hits, std::uint64_t merges,
+                 std::uint64_t evictions, std::uint64_t fills, std::uint64_t most_mshrs);
+  void add_banked(const BankedMemory::Counters& memory);
+  std::vector<Counter> take() { return std::move(counters_); }
+
+ private:
+  std::vector<Counter> counters_;
+};
+
+/// Sentences of what this run did not need (contract 5).
+std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& image, const TableBanks& tables,
+                                  int deepest_stack, int most_contexts, int most_node_mshrs, int most_leaf_mshrs);
+
+std::vector<Cause> ray_cycles(const Contexts& contexts);
+
+/// The result of a unit that has returned its last ray in the cycle before `end`.
+template <class Source, class Wiring>
+UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages, Cycle end) {
+  auto& result_queue = Wiring::stage(stages.result_queue);
+  auto& box_test = Wiring::stage(stages.box_test);
+  auto& mask_test = Wiring::stage(stages.mask_test);
+  auto& triangle_test = Wiring::stage(stages.triangle_test);
+  auto& stack = Wiring::stage(stages.traversal_stack);
+  auto& memory_port = Wiring::stage(stages.memory_port);
+  auto& node_fetch = Wiring::stage(stages.node_fetch);
+  auto& leaf_fetch = Wiring::stage(stages.leaf_fetch);
+  const auto& pushed = stack.counters();
+
+  UnitResult result;
+  result.cycles = end;
+  result.rays = result_queue.rays();
+  result.wrong_hits = result_queue.wrong_hits();
+  result.first_wrong = result_queue.first_wrong();
+  result.counts = {.rays = result.rays,
+                   .node_visits = box_test.nodes(),
+                   .triangle_tests = triangle_test.triangles(),
+                   .leaf_visits = triangle_test.leaves(),
+                   .box_hits = box_test.box_hits(),
+                   .culled = mask_test.culled(),
+                   .uncertain = mask_test.uncertain(),
+                   .dropped = pushed.dropped};
+  std::apply(
+      [&](auto&... holder) {
+        const auto close = [&](auto& stage) {
+          const bool absent = !state.has_mask_test && (stage.account.stage() == "cell_locate" ||
+                                                       stage.account.stage() == "mask_test");
+          if (!absent) result.stages.push_back(stage.account.close(end));
+        };
+        (close(Wiring::stage(holder)), ...);
+      },
+      stages.all());
+
+  CounterList counters;
+  counters.add("contexts.occupied_cycles", "context cycles", "sum over cycles of occupied contexts",
+               state.contexts.occupied_cycles());
+  counters.add("contexts.most_occupied", "contexts", "most contexts occupied at once",
+               static_cast<std::uint64_t>(state.contexts.most_occupied()));
+  counters.add("scheduler.most_ready", "rays", "most rays ready at once", Wiring::stage(stages.scheduler).most_ready());
+  const auto add_fetch = [&](const auto& fetch) {
+    const auto& c = fetch.counters();
+    counters.add_cache(std::string(fetch.account.stage()), c.lookups, c.hits, c.merges, fetch.tags().evictions(), c.fills,
+                       static_cast<std::uint64_t>(fetch.mshrs().most_in_use()));
+    counters.add(std::string(fetch.account.stage()) + ".bytes", "bytes", "bytes that visits asked for", c.bytes);
+  };
+  add_fetch(node_fetch);
+  add_fetch(leaf_fetch);
+  counters.add("memory.node_requests", "lines", "lines read for nodes", memory_port.requests_of(Client::NodeFetch));
+  counters.add("memory.leaf_requests", "lines", "lines read for leaves", memory_port.requests_of(Client::LeafFetch));
+  counters.add("memory.stack_requests", "lines", "lines written and read for spilled stack entries",
+               memory_port.requests_of(Client::Stack));
+  if (memory_port.banked() != nullptr) counters.add_banked(memory_port.banked()->counters());
+  if (state.has_mask_test) {
+    const TableBanks& tables = mask_test.tables();
+    counters.add("cell_locate.lanes", "lanes", "lanes located", Wiring::stage(stages.cell_locate).lanes());
+    counters.add("mask_test.reads", "reads", "table reads, those of one row in one cycle once", tables.reads());
+    counters.add("mask_test.shared_reads", "reads", "reads saved because another lane read the same row", tables.shared_reads());
+    counters.add("mask_test.table_bits", "bits", "tables on chip", tables.bits());
+    counters.add("mask_test.rows", "rows", "rows of all tables on chip",
+                 tables.rows() * static_cast<std::uint64_t>(tables.tables()));
+    counters.add("mask_test.rows_used", "rows", "rows read at least once", tables.rows_used());
+  }
+  counters.add("stack.pushes", "entries", "entries pushed (the nearest child goes straight on)", pushed.pushes);
+  counters.add("stack.pops", "entries", "entries popped, dropped ones included", pushed.pops);
+  counters.add("stack.deepest", "entries", "most entries of one ray", static_cast<std::uint64_t>(pushed.deepest));
+  counters.add("stack.spills", "batches", "batches written to memory", pushed.spills);
+  counters.add("stack.refills", "batches", "batches read back from memory", pushed.refills);
+  if (Source::kComputes)
+    counters.add("events.mismatches", "visits", "computed events that differ from recorded ones",
+                 state.source.event_mismatches());
+  result.counters = counters.take();
+
+  result.ray_cycles = ray_cycles(state.contexts);
+  result.ray_latency_sum = state.contexts.latency_sum();
+  result.left_out = left_out(state.config, state.image, mask_test.tables(), pushed.deepest,
+                             state.contexts.most_occupied(), node_fetch.mshrs().most_in_use(),
+                             leaf_fetch.mshrs().most_in_use());
+  result.event_log_hash = state.log.timed_hash();
+  return result;
+}
+
+}  // namespace ctu::pipeline

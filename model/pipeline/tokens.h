@@ -1,0 +1,84 @@
+// What travels on the links: flat records of a few bytes. Bulky data of a ray (its registers, the slab test's times, ray
+// masks) stays in its context, as in the hardware's register files, and the token names the context.
+#pragma once
+
+#include <cstdint>
+
+#include "model/accel/child_ref.h"
+#include "model/intersect/ray.h"
+
+namespace ctu::pipeline {
+
+using Slot = std::uint16_t;  ///< number of a context
+
+/// A context alone: a freed one, or one whose ray is finished.
+struct SlotToken {
+  Slot slot = 0;
+  bool operator==(const SlotToken&) const = default;
+};
+
+/// The node or leaf that a ray visits next.
+struct RefToken {
+  accel::ChildRef ref = 0;
+  Slot slot = 0;
+  bool operator==(const RefToken&) const = default;
+};
+
+/// A node visit on its way from the box test to the stack.
+struct NodeToken {
+  Slot slot = 0;
+  std::uint8_t hits = 0;       ///< bit lane: hit by the slab test
+  std::uint8_t survivors = 0;  ///< bit lane: passed the mask test
+  std::uint8_t order = 0;      ///< lanes of the survivors, nearest first, 2 bits each
+  bool operator==(const NodeToken&) const = default;
+};
+
+/// A leaf whose triangles have arrived.
+struct LeafToken {
+  accel::ChildRef ref = 0;
+  Slot slot = 0;
+  bool operator==(const LeafToken&) const = default;
+};
+
+/// The outcome of one triangle test when outcomes are recorded ones: nothing but its place.
+struct RecordedTest {
+  Slot slot = 0;
+  std::uint8_t index = 0;  ///< of the triangle within its leaf
+  bool last = false;
+  bool operator==(const RecordedTest&) const = default;
+};
+
+/// The outcome of one triangle test when the unit computes.
+struct ComputedTest {
+  Slot slot = 0;
+  std::uint8_t index = 0;
+  bool last = false;
+  bool hit = false;
+  intersect::Hit candidate;
+  bool operator==(const ComputedTest& other) const {
+    return slot == other.slot && index == other.index && last == other.last && hit == other.hit &&
+           intersect::same_bits(candidate, other.candidate);
+  }
+};
+
+/// A leaf is done. `finished`: the ray wants any hit and has one.
+struct LeafDone {
+  Slot slot = 0;
+  bool finished = false;
+  bool operator==(const LeafDone&) const = default;
+};
+
+/// One line from or to memory. Writes are not answered.
+struct MemoryRequest {
+  std::uint64_t address = 0;  ///< of the line, bytes
+  std::uint16_t id = 0;       ///< the client's own name for it, given back in the answer
+  bool write = false;
+  bool operator==(const MemoryRequest&) const = default;
+};
+
+struct MemoryResponse {
+  std::uint16_t id = 0;
+  bool operator==(const MemoryResponse&) const = default;
+};
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,248 @@
+// traversal_stack: the short stack of every context, on chip, spilled to memory exactly, never dropped.
+//
+//   in   sorted     surviving children of a node, nearest first
+//   in   leaf_done  rays whose leaf is finished
+//   in   refills    spilled entries that have come back
+//   out  to_scheduler  rays with their next reference
+//   out  to_result     rays whose stack is empty, or that are finished
+//   out  spills        writes of the oldest entries, reads of the youngest spilled ones
+//   One ray at a time. A token taken in cycle t is worked on from t + 1:
+//     s survivors: pushes up to push_width a cycle, farthest first; the nearest goes straight to the scheduler, in the
+//       cycle of the last push, so s <= push_width + 1 take one cycle. When the context's entries are full, the oldest
+//       spill_batch of them are written to memory first, one cycle.
+//     none: pops one entry a cycle; those beyond the best hit are dropped, the first other one goes to the scheduler. When
+//       none is on chip but some are spilled, a batch is read back, and the ray waits aside while others are served.
+//   The next token is taken in the last cycle of the one before. Inputs take turns.
+//   stalls: output_full, spill
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/pipeline/context.h"
+#include "model/pipeline/event_log.h"
+#include "model/pipeline/link.h"
+#include "model/pipeline/unit_config.h"
+#include "model/pipeline/unit_image.h"
+
+namespace ctu::pipeline {
+
+inline constexpr int kStackEntryBytes = 8;  ///< reference and t0
+
+template <class Source, class Wiring>
+class TraversalStack {
+ public:
+  typename Wiring::template In<NodeToken> sorted;
+  typename Wiring::template In<LeafDone> leaf_done;
+  typename Wiring::template In<MemoryResponse> refills;
+  typename Wiring::template Out<RefToken> to_scheduler;
+  typename Wiring::template Out<SlotToken> to_result;
+  typename Wiring::template Out<MemoryRequest> spills;
+
+  struct Counters {
+    std::uint64_t pushes = 0, pops = 0, dropped = 0, spills = 0, refills = 0;
+    int deepest = 0;
+  };
+
+  TraversalStack(const UnitConfig& config, Contexts& contexts, Source& source, EventLog& log, const UnitImage& image)
+      : contexts_(contexts),
+        source_(source),
+        log_(log),
+        image_(image),
+        entries_(config.stack.entries),
+        push_width_(config.stack.push_width),
+        spill_batch_(config.stack.spill_batch),
+        can_spill_(image.stack_bound() > config.stack.entries),
+        line_bytes_(static_cast<std::uint64_t>(config.memory.line_bytes)),
+        bound_(static_cast<std::size_t>(image.stack_bound()) + 1),
+        spill_base_((image.end() + line_bytes_ - 1) / line_bytes_ * line_bytes_),
+        spill_region_(round_up(bound_ * kStackEntryBytes, line_bytes_)),
+        refs_(bound_ * static_cast<std::size_t>(contexts.count())) {}
+
+  bool step(Cycle now) {
+    bool moved = false;
+    Activity activity = Activity::Idle;
+    if (job_ != Job::None) {
+      activity = work(now);
+      moved = activity == Activity::Busy;
+    }
+    if (job_ == Job::None && take(now)) {
+      moved = true;
+      activity = Activity::Busy;
+    }
+    account.set(now, activity);
+    return moved;
+  }
+  Cycle next_event(Cycle) const { return kNever; }
+
+  /// Whether the unit holds the logic and the memory client of spills: no, if no ray of this image can need them.
+  bool can_spill() const { return can_spill_; }
+  const Counters& counters() const { return counters_; }
+
+  Account account{"traversal_stack", {Activity::OutputFull, Activity::Spill}};
+
+ private:
+  enum class Job : std::uint8_t { None, Push, Pop, Finish };
+  static constexpr int kInputs = 3;
+
+  static std::uint64_t round_up(std::uint64_t bytes, std::uint64_t unit) { return (bytes + unit - 1) / unit * unit; }
+
+  accel::ChildRef& entry(Slot slot, int position) { return refs_[slot * bound_ + static_cast<std::size_t>(position)]; }
+
+  /// One cycle on the current job: Busy when it went on, else why it stands.
+  Activity work(Cycle now) {
+    switch (job_) {
+      case Job::Push: return push(now);
+      case Job::Pop: return pop(now);
+      default: return finish(now);
+    }
+  }
+
+  Activity push(Cycle now) {
+    Context& context = contexts_[slot_];
+    int pushed = 0;
+    for (; to_push_ > 0 && pushed < push_width_; ++pushed, --to_push_) {
+      if (context.depth - context.spilled == entries_) {
+        if (pushed > 0) return Activity::Busy;  // spills in the next cycle
+        return spill(now, context);
+      }
+      const int lane = (order_ >> (2 * to_push_)) & 3;
+      entry(slot_, context.depth) = image_.child(node_, lane);
+      source_.pushed(slot_, context.depth, lane);
+      ++context.depth;
+      ++counters_.pushes;
+    }
+    if (context.depth > counters_.deepest) counters_.deepest = context.depth;
+    if (to_push_ > 0) return Activity::Busy;
+    if (!to_scheduler.can_push(now)) return pushed > 0 ? Activity::Busy : Activity::OutputFull;
+    to_scheduler.push(now, {image_.child(node_, order_ & 3), slot_});
+    job_ = Job::None;
+    return Activity::Busy;
+  }
+
+  /// Writes the oldest entries on chip to memory.
+  Activity spill(Cycle now, Context& context) {
+    if (!spills.can_push(now)) return Activity::Spill;
+    spills.push(now, {spill_address(context.spilled), slot_, true});
+    context.spilled = static_cast<std::uint16_t>(context.spilled + spill_batch_);
+    ++counters_.spills;
+    return Activity::Busy;
+  }
+
+  Activity pop(Cycle now) {
+    Context& context = contexts_[slot_];
+    if (context.depth == 0) return finish(now);
+    if (context.depth == context.spilled) return refill(now, context);
+    const int top = context.depth - 1;
+    if (!decided_) {
+      dropping_ = source_.drops(slot_, top);
+      decided_ = true;
+    }
+    if (dropping_) {
+      ++counters_.dropped;
+    } else {
+      if (!to_scheduler.can_push(now)) return Activity::OutputFull;
+      to_scheduler.push(now, {entry(slot_, top), slot_});
+      job_ = Job::None;
+    }
+    --context.depth;
+    ++counters_.pops;
+    decided_ = false;
+    return Activity::Busy;
+  }
+
+  /// Asks for the youngest batch in memory; the ray waits aside.
+  Activity refill(Cycle now, Context& context) {
+    if (!spills.can_push(now)) return Activity::Spill;
+    spills.push(now, {spill_address(context.spilled - spill_batch_), slot_, false});
+    contexts_.move(slot_, now, Place::StackRefill);
+    ++counters_.refills;
+    job_ = Job::None;
+    return Activity::Busy;
+  }
+
+  Activity finish(Cycle now) {
+    if (!to_result.can_push(now)) return Activity::OutputFull;
+    contexts_.move(slot_, now, Place::Result);
+    to_result.push(now, {slot_});
+    job_ = Job::None;
+    return Activity::Busy;
+  }
+
+  bool take(Cycle now) {
+    for (int i = 0, input = turn_; i < kInputs; ++i, input = input + 1 == kInputs ? 0 : input + 1) {
+      if (!take_from(input, now)) continue;
+      turn_ = input + 1 == kInputs ? 0 : input + 1;
+      return true;
+    }
+    return false;
+  }
+
+  bool take_from(int input, Cycle now) {
+    if (input == 0) {
+      if (!sorted.can_pop(now)) return false;
+      const NodeToken token = sorted.front();
+      sorted.pop(now);
+      take_node(now, token);
+    } else if (input == 1) {
+      if (!leaf_done.can_pop(now)) return false;
+      const LeafDone token = leaf_done.front();
+      leaf_done.pop(now);
+      begin(now, token.slot, token.finished ? Job::Finish : Job::Pop);
+      if (!token.finished) source_.begin_pop(slot_);
+    } else {
+      if (!can_spill_ || !refills.can_pop(now)) return false;
+      const auto slot = static_cast<Slot>(refills.front().id);
+      refills.pop(now);
+      contexts_[slot].spilled = static_cast<std::uint16_t>(contexts_[slot].spilled - spill_batch_);
+      begin(now, slot, Job::Pop);  // goes on where it was
+    }
+    return true;
+  }
+
+  void take_node(Cycle now, const NodeToken& token) {
+    begin(now, token.slot, token.survivors == 0 ? Job::Pop : Job::Push);
+    Context& context = contexts_[slot_];
+    const reference::Step step = source_.finish_visit(slot_);
+    log_.add({now, context.ray, context.visits, false, step});
+    ++context.visits;
+    node_ = step.ref;
+    order_ = token.order;
+    to_push_ = std::popcount(token.survivors) - 1;
+    if (job_ == Job::Pop) source_.begin_pop(slot_);
+  }
+
+  void begin(Cycle now, Slot slot, Job job) {
+    slot_ = slot;
+    job_ = job;
+    decided_ = false;
+    contexts_.move(slot, now, Place::Stack);
+  }
+
+  std::uint64_t spill_address(int position) const {
+    const std::uint64_t byte = static_cast<std::uint64_t>(position) * kStackEntryBytes;
+    return spill_base_ + slot_ * spill_region_ + byte / line_bytes_ * line_bytes_;
+  }
+
+  Contexts& contexts_;
+  Source& source_;
+  EventLog& log_;
+  const UnitImage& image_;
+  int entries_, push_width_, spill_batch_;
+  bool can_spill_;
+  std::uint64_t line_bytes_;
+  std::size_t bound_;
+  std::uint64_t spill_base_, spill_region_;
+  std::vector<accel::ChildRef> refs_;
+
+  Job job_ = Job::None;
+  Slot slot_ = 0;
+  std::uint32_t node_ = 0;
+  std::uint8_t order_ = 0;
+  int to_push_ = 0;  ///< survivors number 1 .. to_push_ are still to be pushed
+  bool decided_ = false, dropping_ = false;
+  int turn_ = 0;
+  Counters counters_;
+};
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,82 @@
+// triangle_test: all triangles of a leaf, one after the other, into one watertight triangle tester
+// (model/intersect/triangle_test.h).
+//
+//   in   leaf    a context and the leaf whose bytes have come
+//   out  tested  one outcome for each triangle
+//   latency triangle_test.latency, a triangle each triangle_test.interval cycles; the next leaf follows without a gap
+//   stalls: output_full, interval (a triangle waits for the interval)
+#pragma once
+
+#include "model/pipeline/context.h"
+#include "model/pipeline/link.h"
+#include "model/pipeline/pipe.h"
+#include "model/pipeline/unit_config.h"
+
+namespace ctu::pipeline {
+
+template <class Source, class Wiring>
+class TriangleTest {
+ public:
+  typename Wiring::template In<LeafToken> leaf;
+  typename Wiring::template Out<typename Source::Test> tested;
+
+  TriangleTest(const UnitConfig& config, Contexts& contexts, Source& source)
+      : contexts_(contexts),
+        source_(source),
+        interval_(static_cast<Cycle>(config.triangle_test.interval)),
+        pipe_(config.triangle_test.latency) {}
+
+  bool step(Cycle now) {
+    bool moved = false;
+    if (pipe_.exit_ready(now)) {
+      if (!tested.can_push(now)) {
+        pipe_.freeze(now);
+        account.set(now, Activity::OutputFull);
+        return false;
+      }
+      tested.push(now, pipe_.leave(now));
+      moved = true;
+    }
+    const bool waits = remaining_ > 0 || leaf.can_pop(now);
+    const bool enters = waits && pipe_.can_enter(now);
+    if (enters) {
+      if (remaining_ == 0) take_leaf(now);
+      test_next(now);
+      moved = true;
+    }
+    account.set(now, waits && !enters             ? Activity::Interval
+                     : moved || !pipe_.empty() ? Activity::Busy
+                                               : Activity::Idle);
+    return moved;
+  }
+  Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
+  std::uint64_t leaves() const { return leaves_; }
+  std::uint64_t triangles() const { return triangles_; }
+
+  Account account{"triangle_test", {Activity::OutputFull, Activity::Interval}};
+
+ private:
+  void take_leaf(Cycle now) {
+    current_ = leaf.front();
+    leaf.pop(now);
+    contexts_.move(current_.slot, now, Place::TriangleTest);
+    index_ = 0;
+    remaining_ = accel::leaf_count(current_.ref);
+    ++leaves_;
+  }
+  void test_next(Cycle now) {
+    --remaining_;
+    pipe_.enter(now, source_.triangle_test(current_.slot, current_.ref, index_++, remaining_ == 0), interval_);
+    ++triangles_;
+  }
+
+  Contexts& contexts_;
+  Source& source_;
+  Cycle interval_;
+  Pipe<typename Source::Test> pipe_;
+  LeafToken current_;
+  int index_ = 0, remaining_ = 0;
+  std::uint64_t leaves_ = 0, triangles_ = 0;
+};
+
+}  // namespace ctu::pipeline

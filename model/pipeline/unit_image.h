@@ -1,0 +1,65 @@
+// The image as the stages use it: addresses for the fetches, children for the stack, and what the arithmetic reads,
+// decoded once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "model/accel/bvh4.h"
+#include "model/accel/image.h"
+
+namespace ctu::pipeline {
+
+/// Addresses, in bytes, of something fetched: [first, last].
+struct ByteSpan {
+  std::uint64_t first = 0, last = 0;
+};
+
+class UnitImage {
+ public:
+  /// `arithmetic` false keeps only what replaying recorded outcomes needs.
+  UnitImage(const accel::Image& image, bool arithmetic);
+
+  ByteSpan node_bytes(std::uint32_t node) const {
+    const std::uint64_t first = node_base_ + node * node_stride_;
+    return {first, first + node_stride_ - 1};
+  }
+  ByteSpan leaf_bytes(accel::ChildRef leaf) const {
+    const std::uint64_t first = triangle_base_ + accel::leaf_first(leaf) * triangle_stride_;
+    return {first, first + static_cast<std::uint64_t>(accel::leaf_count(leaf)) * triangle_stride_ - 1};
+  }
+  /// Bytes of an accel::ChildRef that names a node or a leaf.
+  ByteSpan bytes(accel::ChildRef ref) const { return accel::is_leaf(ref) ? leaf_bytes(ref) : node_bytes(ref); }
+
+  accel::ChildRef child(std::uint32_t node, int lane) const { return children_[node][static_cast<unsigned>(lane)]; }
+  std::uint32_t primitive(std::uint32_t triangle) const { return primitives_[triangle]; }
+  std::uint32_t node_count() const { return static_cast<std::uint32_t>(children_.size()); }
+  std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(primitives_.size()); }
+  /// Entries a ray's stack can hold at most when the nearest child never goes there: 3 for each level.
+  int stack_bound() const { return 3 * depth_; }
+  /// First byte behind the image: where spilled stack entries go.
+  std::uint64_t end() const { return end_; }
+
+  // Arithmetic only:
+  const intersect::Box4& boxes(std::uint32_t node) const { return boxes_[node]; }
+  const accel::LeafTriangle& triangle(std::uint32_t index) const { return triangles_[index]; }
+  /// Object mask of a lane, ceil(mask_bits / 64) words.
+  const std::uint64_t* mask(std::uint32_t node, int lane) const {
+    return masks_.data() + (static_cast<std::size_t>(node) * 4 + static_cast<unsigned>(lane)) * mask_words_;
+  }
+  std::uint32_t mask_bits() const { return mask_bits_; }
+
+ private:
+  std::uint64_t node_base_ = 0, node_stride_ = 0, triangle_base_ = 0, triangle_stride_ = 0, end_ = 0;
+  int depth_ = 0;
+  std::uint32_t mask_bits_ = 0;
+  std::size_t mask_words_ = 0;
+  std::vector<std::array<accel::ChildRef, 4>> children_;
+  std::vector<std::uint32_t> primitives_;
+  std::vector<intersect::Box4> boxes_;
+  std::vector<accel::LeafTriangle> triangles_;
+  std::vector<std::uint64_t> masks_;
+};
+
+}  // namespace ctu::pipeline

@@ -1,0 +1,31 @@
+#include "model/pipeline/work.h"
+
+#include <string>
+
+#include "model/base/error.h"
+#include "model/pipeline/exec_source.h"
+
+namespace ctu::pipeline {
+
+void check_fits(const UnitConfig& config, const Work& work, bool arithmetic) {
+  const cull::Design design = config.mask_test.design;
+  if (design == cull::Design::Ideal)
+    throw Error("mask_test.design", "ideal culling exists in software only", "choose another design");
+  if (work.tester.design() != design)
+    throw Error("mask_test.design",
+                "the unit has " + std::string(cull::to_string(design)) + ", the tables were built for " +
+                    std::string(cull::to_string(work.tester.design())),
+                "build the tables for the unit's design");
+  const int bits_needed = work.tester.options().resolution * work.tester.options().resolution *
+                          work.tester.options().resolution;
+  if (arithmetic && design != cull::Design::None && work.image.layout.mask_bits != static_cast<std::uint32_t>(bits_needed))
+    throw Error("image",
+                "its object masks have " + std::to_string(work.image.layout.mask_bits) + " bits, the tables need " +
+                    std::to_string(bits_needed),
+                "build image and tables for the same resolution");
+  if (3 * work.image.depth + 1 > kMaxStackEntries)
+    throw Error("image", "a tree of depth " + std::to_string(work.image.depth) + " needs more stack than a ray has",
+                "allow more triangles in a leaf");
+}
+
+}  // namespace ctu::pipeline
