@@ -18,7 +18,7 @@
 namespace ctu::cull {
 namespace {
 
-inline constexpr std::uint64_t kMostTableBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kTableLimitBytes = std::uint64_t{1} << 30;  // a table must stay below
 
 /// The run of mask cells overlapped until `end`.
 struct Step {
@@ -105,7 +105,7 @@ std::uint32_t checked_rows(int resolution, int ray_resolution) {
   std::uint64_t rows = 1;
   for (int i = 0; i < 6; ++i) rows *= static_cast<std::uint64_t>(ray_resolution);
   const std::uint64_t bytes = rows * 8 * static_cast<std::uint64_t>(words_per_mask(resolution));
-  if (bytes > kMostTableBytes)
+  if (bytes >= kTableLimitBytes)
     throw Error("ray-mask table, R_ray = " + std::to_string(ray_resolution),
                 "R_ray^6 masks of R = " + std::to_string(resolution) + " take " + std::to_string(bytes >> 20) + " MiB",
                 "choose a smaller R_ray, or the design `projection`, which gives the same masks from R_ray^4 rows");
