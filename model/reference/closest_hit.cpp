@@ -15,7 +15,7 @@ using intersect::Hit;
 using intersect::Ray;
 
 constexpr int kMaxDepth = 80;  // the builder's bound for 2^27 triangles is 63
-constexpr int kStackEntries = 3 * kMaxDepth + 4;
+constexpr int kStackEntries = (kWideLanes - 1) * kMaxDepth + 1;
 
 template <class Distance>
 struct Entry {
@@ -23,34 +23,38 @@ struct Entry {
   Distance t;
 };
 
-/// Puts the children of the set lanes on the stack, the nearest on top.
+/// Puts the children of the set lanes but the nearest on the stack, farthest first; returns the nearest.
 template <class Distance>
-Entry<Distance>* push_far_to_near(const accel::Node4& node, unsigned lanes, const Distance* t, Entry<Distance>* top) {
-  Entry<Distance>* const first = top;
-  for (; lanes != 0; lanes &= lanes - 1) {
+[[gnu::always_inline]] inline ChildRef nearest_of(const Node8& node, unsigned lanes, const Distance* t,
+                                                  Entry<Distance>*& top) {
+  const auto take = [&] {
     const int lane = std::countr_zero(lanes);
-    const Entry<Distance> entry{node.child[lane], t[lane]};
+    lanes &= lanes - 1;
+    return Entry<Distance>{node.child[lane], t[lane]};
+  };
+  Entry<Distance> nearest = take();
+  if (lanes == 0) return nearest.child;
+  Entry<Distance>* const first = top;
+  do {
+    Entry<Distance> farther = take();
+    if (farther.t < nearest.t) std::swap(farther, nearest);
     Entry<Distance>* at = top++;
-    for (; at > first && at[-1].t < entry.t; --at) *at = at[-1];
-    *at = entry;
-  }
-  return top;
+    for (; at > first && at[-1].t < farther.t; --at) *at = at[-1];
+    *at = farther;
+  } while (lanes != 0);
+  return nearest.child;
 }
 
 /// Follows the nearest child down from `ref`, the others going to the stack: to a leaf, or to nothing.
 template <class Boxes, class Distance>
-ChildRef descend(const accel::Bvh4& bvh, const Boxes& boxes, ChildRef ref, Distance limit, Entry<Distance>*& top) {
+[[gnu::always_inline]] inline ChildRef descend(const Node8* nodes, const Boxes& boxes, ChildRef ref,
+                                               Distance limit, Entry<Distance>*& top) {
   while (accel::is_inner(ref)) {
-    const accel::Node4& node = bvh.nodes[ref];
-    alignas(16) Distance t[intersect::kLanes];
-    const unsigned lanes = boxes.test(node.boxes, limit, t);
+    const Node8& node = nodes[ref];
+    alignas(32) Distance t[kWideLanes];
+    const unsigned lanes = boxes.test(node, limit, t);
     if (lanes == 0) return accel::kEmptyChild;
-    if ((lanes & (lanes - 1)) == 0) {
-      ref = node.child[std::countr_zero(lanes)];
-    } else {
-      top = push_far_to_near(node, lanes, t, top);
-      ref = (--top)->child;
-    }
+    ref = nearest_of(node, lanes, t, top);
   }
   return ref;
 }
@@ -63,7 +67,7 @@ int largest_axis(const Vec3& d) {
 
 }  // namespace
 
-FastTracer::FastTracer(const accel::Bvh4& bvh) : bvh_(&bvh) {
+FastTracer::FastTracer(const accel::Bvh4& bvh) : lower_(bvh.lower), upper_(bvh.upper), nodes_(widen(bvh)) {
   if (bvh.depth > kMaxDepth)
     throw Error("tree", fmt::format("{} levels deep", bvh.depth), fmt::format("at most {} are walked", kMaxDepth));
   rows_.reserve(bvh.triangles.size());
@@ -75,22 +79,21 @@ Hit FastTracer::walk(const Ray& ray, const Boxes& boxes, const Triangle& triangl
   using Distance = typename Boxes::Distance;
   Entry<Distance> stack[kStackEntries];
   Entry<Distance>* top = stack;
-  *top++ = {0, boxes.limit(ray.tmin)};
+  *top++ = {0, ray.tmin};
   Hit best{ray.tmax, 0, 0, intersect::kNoPrimitive};
-  Distance limit = boxes.limit(best.t);
+  Distance limit = best.t;
   while (top != stack) {
     const Entry<Distance> entry = *--top;
     if (!(entry.t <= limit)) continue;
-    const ChildRef leaf = descend(*bvh_, boxes, entry.child, limit, top);
+    const ChildRef leaf = descend(nodes_.data(), boxes, entry.child, limit, top);
     if (leaf == accel::kEmptyChild) continue;
     const std::uint32_t first = accel::leaf_first(leaf), last = first + static_cast<std::uint32_t>(accel::leaf_count(leaf));
     for (std::uint32_t i = first; i < last; ++i) {
-      const accel::LeafTriangle& candidate = bvh_->triangles[i];
-      const intersect::TriangleResult r = triangle.test(rows_[i], candidate, best.t);
-      if (!r.hit || !intersect::replaces(r.t, candidate.primitive, best)) continue;
-      best = {r.t, r.u, r.v, candidate.primitive};
+      const intersect::TriangleResult r = triangle.test(rows_[i], best.t);
+      if (!r.hit || !intersect::replaces(r.t, rows_[i].primitive(), best)) continue;
+      best = {r.t, r.u, r.v, rows_[i].primitive()};
       if constexpr (kAny) return best;
-      limit = boxes.limit(best.t);
+      limit = best.t;
     }
   }
   return best;
@@ -98,15 +101,12 @@ Hit FastTracer::walk(const Ray& ray, const Boxes& boxes, const Triangle& triangl
 
 template <bool kAny>
 Hit FastTracer::trace(const Ray& ray) const {
-  if (!intersect::is_valid(ray)) return {ray.tmax, 0, 0, intersect::kNoPrimitive};
   const int kz = largest_axis(ray.direction);
-  const double d = reach(*bvh_, ray.origin);
-  if (FastTriangle::fits(ray, d, kz)) {
-    const auto largest = std::fabs(ray.direction[kz]);
-    return walk<kAny>(ray, FastBoxes(pad(ray, static_cast<float>(d), largest)), FastTriangle(ray, kz));
-  }
-  const double largest = std::fabs(static_cast<double>(ray.direction[kz]));
-  return walk<kAny>(ray, WideBoxes(pad(ray, d, largest)), DefinedTriangle(ray));
+  const Reach reach(lower_, upper_, ray.origin);
+  if (!intersect::is_valid(ray)) return {ray.tmax, 0, 0, intersect::kNoPrimitive};
+  if (FastBoxes::fit(ray, reach, kz) && FastTriangle::fits(ray, kz))
+    return walk<kAny>(ray, FastBoxes(ray, reach, kz), FastTriangle(ray, kz));
+  return walk<kAny>(ray, WideBoxes(ray, reach, kz), DefinedTriangle(ray));
 }
 
 Hit FastTracer::closest(const Ray& ray) const { return trace<false>(ray); }

@@ -11,12 +11,13 @@
 #include "model/accel/bvh4.h"
 #include "model/intersect/ray.h"
 #include "model/reference/fast_triangle.h"
+#include "model/reference/node8.h"
 
 namespace ctu::reference {
 
 class FastTracer {
  public:
-  /// `bvh` must outlive the tracer. Throws Error when it is deeper than any tree the builder makes.
+  /// Keeps nothing of `bvh` itself. Throws Error when it is deeper than any tree the builder makes.
   explicit FastTracer(const accel::Bvh4& bvh);
 
   /// The nearest hit in [tmin, tmax]; for a ray that is not valid, a miss. `ray.kind` plays no part.
@@ -30,7 +31,8 @@ class FastTracer {
   template <bool kAny, class Boxes, class Triangle>
   intersect::Hit walk(const intersect::Ray& ray, const Boxes& boxes, const Triangle& triangle) const;
 
-  const accel::Bvh4* bvh_;
+  Vec3 lower_, upper_;  // bounds of all vertices
+  std::vector<Node8> nodes_;
   std::vector<VertexRows> rows_;  // of the triangles, in leaf order
 };
 

@@ -14,9 +14,12 @@
 
 namespace ctu::reference {
 
-/// The coordinates of a triangle's vertices by axis; the fourth column is 0.
+/// The coordinates of a triangle's vertices by axis. The fourth column of the first row is the id, with an offset that
+/// makes its bits a normal number: arithmetic on whole rows would be slow on subnormals.
 struct alignas(16) VertexRows {
   float axis[3][4];
+
+  static constexpr std::uint32_t kIdOffset = 0x3f000000u;
 
   explicit VertexRows(const accel::LeafTriangle& t) {
     for (int a = 0; a < 3; ++a) {
@@ -25,7 +28,10 @@ struct alignas(16) VertexRows {
       axis[a][2] = t.v2[a];
       axis[a][3] = 0;
     }
+    axis[0][3] = std::bit_cast<float>(t.primitive + kIdOffset);
   }
+  Vec3 vertex(int i) const { return {axis[0][i], axis[1][i], axis[2][i]}; }
+  std::uint32_t primitive() const { return std::bit_cast<std::uint32_t>(axis[0][3]) - kIdOffset; }
 };
 
 /// The defined test and nothing else.
@@ -33,8 +39,8 @@ class DefinedTriangle {
  public:
   explicit DefinedTriangle(const intersect::Ray& ray) : ray_(intersect::prepare_ray(ray)) {}
 
-  intersect::TriangleResult test(const VertexRows&, const accel::LeafTriangle& t, float tmax) const {
-    return intersect::triangle_test(ray_, t.v0, t.v1, t.v2, tmax);
+  intersect::TriangleResult test(const VertexRows& t, float tmax) const {
+    return intersect::triangle_test(ray_, t.vertex(0), t.vertex(1), t.vertex(2), tmax);
   }
 
  private:
@@ -45,14 +51,12 @@ class DefinedTriangle {
 /// range of normal numbers. `fits` says for which rays that is so but for the checks made on each triangle.
 class FastTriangle {
  public:
-  /// `reach` bounds |v - o| on any axis for all vertices, `kz` is the axis of the largest direction component.
-  static bool fits(const intersect::Ray& ray, double reach, int kz) {
-    if (!(reach >= 0x1p-30 && reach <= 0x1p30)) return false;
-    const float dz = std::fabs(ray.direction[kz]);
-    if (!(dz >= 0x1p-30f && dz <= 0x1p30f)) return false;
+  /// To be asked of rays that FastBoxes fit.
+  static bool fits(const intersect::Ray& ray, int kz) {
+    const float smallest = std::fabs(ray.direction[kz]) * 0x1p-60f;
     for (int axis = 0; axis < 3; ++axis) {
       const float d = std::fabs(ray.direction[axis]);
-      if (d != 0 && !(d >= dz * 0x1p-60f)) return false;
+      if (d != 0 && !(d >= smallest)) return false;
     }
     return true;
   }
@@ -69,10 +73,10 @@ class FastTriangle {
     oz_ = _mm_set1_ps(ray.origin[kz]);
   }
 
-  intersect::TriangleResult test(const VertexRows& rows, const accel::LeafTriangle& triangle, float tmax) const {
-    const __m128 z = _mm_sub_ps(_mm_load_ps(rows.axis[kz_]), oz_);
-    const __m128 x = _mm_sub_ps(_mm_sub_ps(_mm_load_ps(rows.axis[kx_]), ox_), _mm_mul_ps(sx_, z));
-    const __m128 y = _mm_sub_ps(_mm_sub_ps(_mm_load_ps(rows.axis[ky_]), oy_), _mm_mul_ps(sy_, z));
+  intersect::TriangleResult test(const VertexRows& triangle, float tmax) const {
+    const __m128 z = _mm_sub_ps(_mm_load_ps(triangle.axis[kz_]), oz_);
+    const __m128 x = _mm_sub_ps(_mm_sub_ps(_mm_load_ps(triangle.axis[kx_]), ox_), _mm_mul_ps(sx_, z));
+    const __m128 y = _mm_sub_ps(_mm_sub_ps(_mm_load_ps(triangle.axis[ky_]), oy_), _mm_mul_ps(sy_, z));
     const __m128 x_cab = cab(x), x_bca = bca(x), y_cab = cab(y), y_bca = bca(y);
     // Rounding is monotone: products that differ after it differed the same way before.
     const __m128 p = _mm_mul_ps(x_cab, y_bca), q = _mm_mul_ps(y_cab, x_bca);
@@ -88,8 +92,8 @@ class FastTriangle {
   static __m128 cab(__m128 v) { return _mm_shuffle_ps(v, v, _MM_SHUFFLE(3, 1, 0, 2)); }
   static __m128 bca(__m128 v) { return _mm_shuffle_ps(v, v, _MM_SHUFFLE(3, 0, 2, 1)); }
 
-  [[gnu::noinline, gnu::cold]] intersect::TriangleResult defined(const accel::LeafTriangle& t, float tmax) const {
-    return intersect::triangle_test(intersect::prepare_ray(ray_), t.v0, t.v1, t.v2, tmax);
+  [[gnu::noinline, gnu::cold]] intersect::TriangleResult defined(const VertexRows& t, float tmax) const {
+    return intersect::triangle_test(intersect::prepare_ray(ray_), t.vertex(0), t.vertex(1), t.vertex(2), tmax);
   }
 
   /// Whether a difference of exact products, rounded to binary64, rounds to binary32 as the exact one would and stays
@@ -101,7 +105,7 @@ class FastTriangle {
   }
 
   intersect::TriangleResult finish(__m128 x_cab, __m128 y_bca, __m128 y_cab, __m128 x_bca, __m128 z,
-                                   const accel::LeafTriangle& triangle, float tmax) const {
+                                   const VertexRows& triangle, float tmax) const {
     alignas(16) float cx[4], by[4], cy[4], bx[4], depth_of[4];
     _mm_store_ps(cx, x_cab);
     _mm_store_ps(by, y_bca);

@@ -1,124 +1,111 @@
 // A box test that is cheap and passes every box of a triangle that triangle_test accepts.
 //
-// Let D bound |v - o| of every vertex of the scene on every axis, and u = 2^-24. The shear of triangle_test is off by at
-// most 6.1 u D (subtraction u, product 3 u, difference 2 u, and higher orders), and its edge signs are exact; so where
-// it accepts, the exact ray passes the exact triangle's plane within 6.1 u D of it, at a parameter that differs from the
-// computed t by at most 6 u D / |d_kz|. Here a direction is scaled by a power of two to 1 <= |d_kz| < 2; then moving
-// the origin along an axis by 32 u D moves that axis' near and far t apart by at least 16 u D each: room for the
-// shear's error (6.1), that of t (6) and this test's own three roundings (3). A component of the direction below 2^-60
-// is taken for 2^-60: over the scene's extent that moves the ray by 2^-58 D at most. So there is no division by zero
-// and no NaN.
+// Let D bound |v - o| of every vertex of the scene on every axis, d be the direction, kz its largest axis, u = 2^-24.
+// The shear of triangle_test is off by at most 6.1 u D (subtraction u, product 3 u, difference 2 u, and higher orders),
+// and its edge signs are exact; so where it accepts, the exact ray passes within 6.1 u D of the exact triangle, at a
+// parameter that differs from the computed t by at most 6 u D / |d_kz|. Moving the origin by 40 u D along an axis a
+// moves that axis' near and far t apart by 40 u D / |d_a| each: room for the shear's error (6.1), that of t (6) and the
+// rounding of the products here (below 8 with that of D; what the origin itself loses is added in its own units).
+// A component of d below 2^-60 |d_kz| is taken for that: over the scene's extent it moves the ray by 2^-59 D at most.
+// So there is no division by zero, no overflow and no NaN.
 #pragma once
-
-#include <emmintrin.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "model/accel/bvh4.h"
 #include "model/intersect/ray.h"
+#include "model/reference/lanes8.h"
+#include "model/reference/node8.h"
 
 namespace ctu::reference {
 
-/// What both forms below share: the scaled ray in the number type they compute with.
-template <class Number>
-struct PaddedRay {
-  Number reciprocal[3];
-  Number near_origin[3], far_origin[3];
-  Number tmin;
-  Number scale;  ///< t in the scaled direction's units = t * scale
-  bool negative[3];
+/// What bounds a ray's rounding errors: D of the above, and the largest coordinate of the origin.
+struct Reach {
+  float distance = 0, origin = 0;
+
+  Reach(const Vec3& lower, const Vec3& upper, const Vec3& o) {
+    for (int axis = 0; axis < 3; ++axis) {
+      distance = std::max({distance, std::fabs(lower[axis] - o[axis]), std::fabs(upper[axis] - o[axis])});
+      origin = std::max(origin, std::fabs(o[axis]));
+    }
+  }
 };
 
-/// The largest |v - o| on any axis that a vertex within the scene's bounds can have.
-inline double reach(const accel::Bvh4& bvh, const Vec3& origin) {
-  double d = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double o = origin[axis];
-    d = std::max({d, std::fabs(bvh.lower[axis] - o), std::fabs(bvh.upper[axis] - o)});
-  }
-  return d;
-}
-
+/// The t of a plane at coordinate x: x * reciprocal + near for the face met first, + far for the other.
 template <class Number>
-PaddedRay<Number> pad(const intersect::Ray& ray, Number reach, Number largest_component) {
-  constexpr Number kUnit = Number(0x1p-24);
-  PaddedRay<Number> p;
-  const int exponent = std::ilogb(largest_component);
-  p.scale = std::scalbn(Number(1), exponent);
-  const Number shrink = std::scalbn(Number(1), -exponent);
-  p.tmin = Number(ray.tmin) * p.scale;
-  const Number farthest = std::max({std::fabs(ray.origin.x), std::fabs(ray.origin.y), std::fabs(ray.origin.z)});
-  const Number padding = 32 * kUnit * reach + 2 * kUnit * farthest;  // the second term covers the origin's rounding
-  for (int axis = 0; axis < 3; ++axis) {
-    const Number d = Number(ray.direction[axis]) * shrink;
-    p.negative[axis] = std::signbit(d);  // of -0 too, as copysign sees it
-    const Number moved = std::copysign(padding, d);
-    p.reciprocal[axis] = 1 / std::copysign(std::max(std::fabs(d), Number(0x1p-60)), d);
-    p.near_origin[axis] = Number(ray.origin[axis]) + moved;
-    p.far_origin[axis] = Number(ray.origin[axis]) - moved;
-  }
-  return p;
-}
+struct PaddedRay {
+  Number reciprocal[3], near[3], far[3];
+  bool negative[3];
 
-/// Four lanes of binary32, for rays and scenes whose numbers are far from its limits.
+  PaddedRay(const intersect::Ray& ray, const Reach& reach, int kz) {
+    constexpr Number kUnit = Number(0x1p-24);
+    const Number padding = 40 * kUnit * Number(reach.distance) + 4 * kUnit * Number(reach.origin);
+    const Number smallest = std::fabs(Number(ray.direction[kz])) * Number(0x1p-60);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Number d = Number(ray.direction[axis]), o = Number(ray.origin[axis]);
+      const Number moved = std::copysign(padding, d);
+      reciprocal[axis] = 1 / std::copysign(std::max(std::fabs(d), smallest), d);
+      near[axis] = -(o + moved) * reciprocal[axis];
+      far[axis] = -(o - moved) * reciprocal[axis];
+      negative[axis] = std::signbit(d);  // of -0 too, as copysign sees it
+    }
+  }
+};
+
+/// Eight lanes of binary32, for rays and scenes whose numbers are far from its limits.
 class FastBoxes {
  public:
   using Distance = float;
 
-  explicit FastBoxes(const PaddedRay<float>& p) : tmin_(_mm_set1_ps(p.tmin)), scale_(p.scale) {
+  /// Whether every product stays below 2^128. `kz` is the axis of the largest direction component.
+  static bool fit(const intersect::Ray& ray, const Reach& reach, int kz) {
+    const float dz = std::fabs(ray.direction[kz]);
+    return reach.distance >= 0x1p-30f && reach.distance <= 0x1p30f && reach.origin <= 0x1p30f && dz >= 0x1p-30f &&
+           dz <= 0x1p30f;
+  }
+
+  FastBoxes(const intersect::Ray& ray, const Reach& reach, int kz) : tmin_(splat8(ray.tmin)) {
+    const PaddedRay<float> p(ray, reach, kz);
     for (int axis = 0; axis < 3; ++axis) {
-      reciprocal_[axis] = _mm_set1_ps(p.reciprocal[axis]);
-      near_origin_[axis] = _mm_set1_ps(p.near_origin[axis]);
-      far_origin_[axis] = _mm_set1_ps(p.far_origin[axis]);
-      near_row_[axis] = 4 * axis + (p.negative[axis] ? 12 : 0);
-      far_row_[axis] = 4 * axis + (p.negative[axis] ? 0 : 12);
+      reciprocal_[axis] = splat8(p.reciprocal[axis]);
+      near_[axis] = splat8(p.near[axis]);
+      far_[axis] = splat8(p.far[axis]);
+      near_row_[axis] = kWideLanes * (axis + (p.negative[axis] ? 3 : 0));
+      far_row_[axis] = kWideLanes * (axis + (p.negative[axis] ? 0 : 3));
     }
   }
 
-  Distance limit(float t) const { return t * scale_; }
-
-  /// Bit lane: the box may be met before `limit`; then t[lane] is not after the first meeting.
-  unsigned test(const intersect::Box4& boxes, Distance limit, Distance* t) const {
-    const float* const rows = &boxes.lo[0][0];
-    const __m128 near =
-        _mm_max_ps(_mm_max_ps(near_plane(rows, 0), near_plane(rows, 1)), _mm_max_ps(near_plane(rows, 2), tmin_));
-    const __m128 far = _mm_min_ps(_mm_min_ps(far_plane(rows, 0), far_plane(rows, 1)),
-                                  _mm_min_ps(far_plane(rows, 2), _mm_set1_ps(limit)));
-    _mm_store_ps(t, near);
-    return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(near, far)));
+  /// Bit lane: the box may be met in [tmin, limit]; then t[lane] is not after the first meeting.
+  [[gnu::always_inline]] unsigned test(const Node8& node, Distance limit, Distance* t) const {
+    const float* const rows = &node.lo[0][0];
+    const auto near = [&](int axis) { return multiply_add8(load8(rows + near_row_[axis]), reciprocal_[axis], near_[axis]); };
+    const auto far = [&](int axis) { return multiply_add8(load8(rows + far_row_[axis]), reciprocal_[axis], far_[axis]); };
+    const Lanes8 entry = max8(max8(near(0), near(1)), max8(near(2), tmin_));
+    const Lanes8 exit = min8(min8(far(0), far(1)), min8(far(2), splat8(limit)));
+    store8(t, entry);
+    return less_equal8(entry, exit);
   }
 
  private:
-  __m128 near_plane(const float* rows, int axis) const {
-    return _mm_mul_ps(_mm_sub_ps(_mm_load_ps(rows + near_row_[axis]), near_origin_[axis]), reciprocal_[axis]);
-  }
-  __m128 far_plane(const float* rows, int axis) const {
-    return _mm_mul_ps(_mm_sub_ps(_mm_load_ps(rows + far_row_[axis]), far_origin_[axis]), reciprocal_[axis]);
-  }
-
-  __m128 reciprocal_[3], near_origin_[3], far_origin_[3], tmin_;
-  int near_row_[3], far_row_[3];
-  float scale_;
+  Lanes8 reciprocal_[3], near_[3], far_[3], tmin_;
+  long near_row_[3], far_row_[3];
 };
 
-/// The same in binary64, whose range no scene of binary32 leaves.
+/// The same in binary64, whose range no ray and scene of binary32 leave.
 class WideBoxes {
  public:
   using Distance = double;
 
-  explicit WideBoxes(const PaddedRay<double>& p) : p_(p) {}
+  WideBoxes(const intersect::Ray& ray, const Reach& reach, int kz) : ray_(ray, reach, kz), tmin_(ray.tmin) {}
 
-  Distance limit(float t) const { return t * p_.scale; }
-
-  unsigned test(const intersect::Box4& boxes, Distance limit, Distance* t) const {
+  unsigned test(const Node8& node, Distance limit, Distance* t) const {
     unsigned hit = 0;
-    for (int lane = 0; lane < intersect::kLanes; ++lane) {
-      double near = p_.tmin, far = limit;
+    for (int lane = 0; lane < kWideLanes; ++lane) {
+      double near = tmin_, far = limit;
       for (int axis = 0; axis < 3; ++axis) {
-        const double lo = boxes.lo[axis][lane], hi = boxes.hi[axis][lane];
-        near = std::max(near, ((p_.negative[axis] ? hi : lo) - p_.near_origin[axis]) * p_.reciprocal[axis]);
-        far = std::min(far, ((p_.negative[axis] ? lo : hi) - p_.far_origin[axis]) * p_.reciprocal[axis]);
+        const double lo = node.lo[axis][lane], hi = node.hi[axis][lane];
+        near = std::max(near, (ray_.negative[axis] ? hi : lo) * ray_.reciprocal[axis] + ray_.near[axis]);
+        far = std::min(far, (ray_.negative[axis] ? lo : hi) * ray_.reciprocal[axis] + ray_.far[axis]);
       }
       t[lane] = near;
       if (near <= far) hit |= 1u << lane;
@@ -127,7 +114,8 @@ class WideBoxes {
   }
 
  private:
-  PaddedRay<double> p_;
+  PaddedRay<double> ray_;
+  double tmin_;
 };
 
 }  // namespace ctu::reference
