@@ -64,9 +64,10 @@ std::optional<Affine> rotation(double degrees, const Vector64& axis) {
   const Vector64 a = normalized(axis, {0, 0, 1});
   const auto [c, s] = turn(degrees / 360);
   Affine result;
-  const double rows[3][3] = {{a.x * a.x + (1 - a.x * a.x) * c, a.x * a.y * (1 - c) - a.z * s, a.x * a.z * (1 - c) + a.y * s},
-                             {a.x * a.y * (1 - c) + a.z * s, a.y * a.y + (1 - a.y * a.y) * c, a.y * a.z * (1 - c) - a.x * s},
-                             {a.x * a.z * (1 - c) - a.y * s, a.y * a.z * (1 - c) + a.x * s, a.z * a.z + (1 - a.z * a.z) * c}};
+  const double rows[3][3] = {
+      {a.x * a.x + (1 - a.x * a.x) * c, a.x * a.y * (1 - c) - a.z * s, a.x * a.z * (1 - c) + a.y * s},
+      {a.x * a.y * (1 - c) + a.z * s, a.y * a.y + (1 - a.y * a.y) * c, a.y * a.z * (1 - c) - a.x * s},
+      {a.x * a.z * (1 - c) - a.y * s, a.y * a.z * (1 - c) + a.x * s, a.z * a.z + (1 - a.z * a.z) * c}};
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) result.m[row][column] = rows[row][column];
   return result;
@@ -90,7 +91,8 @@ std::optional<Affine> from_columns(const std::array<double, 16>& numbers) {
   if (numbers[3] != 0 || numbers[7] != 0 || numbers[11] != 0 || numbers[15] != 1) return std::nullopt;
   Affine result;
   for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column) result.m[row][column] = numbers[static_cast<std::size_t>(4 * column + row)];
+    for (int column = 0; column < 4; ++column)
+      result.m[row][column] = numbers[static_cast<std::size_t>(4 * column + row)];
   return result;
 }
 

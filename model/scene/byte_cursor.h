@@ -50,8 +50,7 @@ class ByteCursor {
 
  private:
   [[noreturn]] void fail_at_end(const char* what) const {
-    throw Error(where(), fmt::format("the file ends inside {}", what),
-                "the file is cut off: fetch or export it again");
+    throw Error(where(), fmt::format("the file ends inside {}", what), "the file is cut off: fetch or export it again");
   }
 
   const SourceFile& file_;

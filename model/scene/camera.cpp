@@ -25,7 +25,10 @@ Camera default_camera(const Scene& scene) {
     const double half = 0.5 * (double{scene.upper[axis]} - scene.lower[axis]);
     squared += half * half;
   }
-  const double distance = std::max(std::sqrt(squared), 1e-30) * kOverSinOfHalf * kMargin;
+  // A scene that is one point still needs an eye that binary32 can tell from it.
+  const double far = std::max({std::fabs(center[0]), std::fabs(center[1]), std::fabs(center[2])});
+  const double radius = std::max({std::sqrt(squared), 1e-4 * far, 1e-30});
+  const double distance = radius * kOverSinOfHalf * kMargin;
   const bool z_up = z_is_up(scene.report.format);
   // No component is zero and none equals another, so that no axis of the scene is seen edge-on.
   const double toward[3] = {0.64, z_up ? -0.62 : 0.45, z_up ? 0.45 : 0.62};

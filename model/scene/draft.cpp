@@ -18,7 +18,8 @@ bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && 
 
 void check_mesh(const Mesh& mesh, const std::string& where) {
   if (mesh.triangles.empty())
-    throw Error(where, "holds no triangles", "name a scene with at least one triangle; an export may have been cut off");
+    throw Error(where, "holds no triangles",
+                "name a scene with at least one triangle; an export may have been cut off");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     if (!finite(mesh.vertices[v]))
       throw Error(fmt::format("{}: vertex {}", where, v), "is not finite in binary32 (NaN, infinite or overflowed)",

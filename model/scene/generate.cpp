@@ -77,7 +77,8 @@ void curly_hair(Parameters& p, const std::string& where, Draft& draft) {
       const double t = static_cast<double>(i) / static_cast<double>(s.segments);
       const Turn angle = turn(phase + curls * tightness * t);
       const double wide = curl_radius * std::min(1.0, 4 * t);  // the curl opens over the first quarter
-      points.push_back({outward * (radius + length * t) + u * (wide * angle.cosine) + v * (wide * angle.sine), s.width});
+      points.push_back(
+          {outward * (radius + length * t) + u * (wide * angle.cosine) + v * (wide * angle.sine), s.width});
     }
     append_ribbon(points, n, where, draft);
   }

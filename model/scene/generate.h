@@ -21,8 +21,8 @@ namespace ctu::scene {
 
 inline constexpr const char* kGeneratorPrefix = "gen:";
 
-/// Appends the scene that `name` (with its "gen:") describes. Throws Error for an unknown name, key or value, naming the
-/// nearest known one.
+/// Appends the scene that `name` (with its "gen:") describes. Throws Error for an unknown name, key or value, naming
+/// the nearest known one.
 void generate(const std::string& name, Draft& draft);
 
 }  // namespace ctu::scene

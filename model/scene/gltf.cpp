@@ -62,7 +62,8 @@ class GltfReader {
     std::vector<bool> is_child(model_.nodes.size(), false);
     for (const auto& n : model_.nodes)
       for (const int child : n.children)
-        if (child >= 0 && static_cast<std::size_t>(child) < is_child.size()) is_child[static_cast<std::size_t>(child)] = true;
+        if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
+          is_child[static_cast<std::size_t>(child)] = true;
     std::vector<int> all;
     for (std::size_t i = 0; i < is_child.size(); ++i)
       if (!is_child[i]) all.push_back(static_cast<int>(i));
@@ -72,8 +73,7 @@ class GltfReader {
   void node(int index, const Affine& parent, int depth) {
     const tinygltf::Node& n = item(model_.nodes, index, "node");
     const std::string where = fmt::format("{}: node {}", file_.path, index);
-    if (seen_[static_cast<std::size_t>(index)])
-      throw Error(where, "is reached twice; nodes form a tree", kDamaged);
+    if (seen_[static_cast<std::size_t>(index)]) throw Error(where, "is reached twice; nodes form a tree", kDamaged);
     if (depth > kDeepestNode) throw Error(where, fmt::format("is nested more than {} deep", kDeepestNode), kDamaged);
     seen_[static_cast<std::size_t>(index)] = true;
     const Affine to_world = parent * local_transform(n, where);
@@ -132,7 +132,8 @@ class GltfReader {
     const tinygltf::Accessor& accessor = item(model_.accessors, index, "accessor");
     const std::string here = fmt::format("{}, accessor {}", where, index);
     if (accessor.sparse.isSparse || accessor.bufferView < 0)
-      throw Error(here, "is sparse or compressed, which is not read", "export plain buffers (no Draco, no sparse accessors)");
+      throw Error(here, "is sparse or compressed, which is not read",
+                  "export plain buffers (no Draco, no sparse accessors)");
     if (accessor.type != type) throw Error(here, "has the wrong type", kDamaged);
     const tinygltf::BufferView& slice = item(model_.bufferViews, accessor.bufferView, "bufferView");
     const auto& data = item(model_.buffers, slice.buffer, "buffer").data;
@@ -147,8 +148,9 @@ class GltfReader {
     const std::size_t room = slice.byteLength - accessor.byteOffset;
     if (accessor.count == 0) return {};
     if (bytes > room || accessor.count - 1 > (room - bytes) / step)
-      throw Error(here, fmt::format("its {} elements do not fit its buffer view of {} bytes", accessor.count, slice.byteLength),
-                  kDamaged);
+      throw Error(
+          here, fmt::format("its {} elements do not fit its buffer view of {} bytes", accessor.count, slice.byteLength),
+          kDamaged);
     return {data.data() + slice.byteOffset + accessor.byteOffset, step, accessor.count, accessor.componentType};
   }
 
@@ -169,7 +171,8 @@ class GltfReader {
   }
 
   // Without indices, the vertices in their order.
-  std::vector<std::uint32_t> corners(const tinygltf::Primitive& p, std::uint64_t vertices, const std::string& where) const {
+  std::vector<std::uint32_t> corners(const tinygltf::Primitive& p, std::uint64_t vertices,
+                                     const std::string& where) const {
     std::vector<std::uint32_t> result;
     if (p.indices < 0) {
       for (std::uint32_t i = 0; i < vertices; ++i) result.push_back(i);
@@ -180,7 +183,8 @@ class GltfReader {
     for (std::size_t i = 0; i < view.count; ++i) {
       const std::uint32_t index = index_at(view, i, where);
       if (index >= vertices)
-        throw Error(fmt::format("{}, index {}", where, i), fmt::format("names vertex {}, but there are {}", index, vertices), kDamaged);
+        throw Error(fmt::format("{}, index {}", where, i),
+                    fmt::format("names vertex {}, but there are {}", index, vertices), kDamaged);
       result.push_back(index);
     }
     return result;
@@ -191,10 +195,14 @@ class GltfReader {
     std::uint16_t two;
     std::uint32_t four;
     switch (view.component) {
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return *at;
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return std::memcpy(&two, at, 2), two;
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return std::memcpy(&four, at, 4), four;
-      default: throw Error(where, "indices are not unsigned integers", kDamaged);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return *at;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return std::memcpy(&two, at, 2), two;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return std::memcpy(&four, at, 4), four;
+      default:
+        throw Error(where, "indices are not unsigned integers", kDamaged);
     }
   }
 
@@ -203,7 +211,8 @@ class GltfReader {
     const auto base = static_cast<std::uint32_t>(base64);
     const bool list = mode == TINYGLTF_MODE_TRIANGLES;
     draft_.require_room(where, 0, list ? c.size() / 3 : c.size());
-    if (list && c.size() % 3 != 0) throw Error(where, fmt::format("{} corners are no whole number of triangles", c.size()), kDamaged);
+    if (list && c.size() % 3 != 0)
+      throw Error(where, fmt::format("{} corners are no whole number of triangles", c.size()), kDamaged);
     for (std::size_t i = 2; i < c.size(); i += list ? 3 : 1) {
       const bool turned = mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1;
       const std::uint32_t a = mode == TINYGLTF_MODE_TRIANGLE_FAN ? c[0] : c[i - 2];
@@ -216,7 +225,8 @@ class GltfReader {
     const tinygltf::Camera& stated = item(model_.cameras, index, "camera");
     if (draft_.camera || stated.type != "perspective") return;
     const double degrees = stated.perspective.yfov * 180 / 3.14159265358979323846;
-    if (!(degrees > 0 && degrees < 180)) return draft_.warn("gltf: a camera with a field of view outside (0, pi) was skipped");
+    if (!(degrees > 0 && degrees < 180))
+      return draft_.warn("gltf: a camera with a field of view outside (0, pi) was skipped");
     Camera c;
     c.eye = to_world.point({0, 0, 0}).rounded();
     c.target = to_world.point({0, 0, -1}).rounded();

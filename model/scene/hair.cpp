@@ -82,8 +82,8 @@ void read_hair(const SourceFile& file, Draft& draft) {
   std::uint64_t points_left = header.points;
   std::vector<StrandPoint> strand;
   for (std::uint32_t n = 0; n < header.strands; ++n) {
-    const std::uint64_t own =
-        1 + ((header.bits & kHasSegments) != 0 ? segments.take<std::uint16_t>("the segments") : std::uint64_t{header.segments});
+    const std::uint64_t own = 1 + ((header.bits & kHasSegments) != 0 ? segments.take<std::uint16_t>("the segments")
+                                                                     : std::uint64_t{header.segments});
     if (own < 2) throw Error(fmt::format("{}: strand {}", file.path, n), "has no segments", kDamaged);
     if (own > points_left)
       throw Error(fmt::format("{}: strand {}", file.path, n),

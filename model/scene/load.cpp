@@ -27,7 +27,7 @@ struct Format {
 };
 
 constexpr Format kFormats[] = {
-    {"obj", read_obj},   {"ply", read_ply}, {"gltf", read_gltf}, {"glb", read_glb}, {"pbrt", read_pbrt},
+    {"obj", read_obj},   {"ply", read_ply}, {"gltf", read_gltf}, {"glb", read_glb},     {"pbrt", read_pbrt},
     {"hair", read_hair}, {"tfx", read_tfx}, {"nff", read_nff},   {"scn", read_luxcore},
 };
 
@@ -35,8 +35,9 @@ const Format& format_of(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   for (const Format& format : kFormats)
     if (extension == format.extension) return format;
-  throw Error(path.string(), fmt::format("'.{}' is no scene format we know", extension),
-              "name a file of .obj .ply .gltf .glb .pbrt .scn .hair .tfx .nff (.zst behind it or not) or .list, or gen:NAME");
+  throw Error(
+      path.string(), fmt::format("'.{}' is no scene format we know", extension),
+      "name a file of .obj .ply .gltf .glb .pbrt .scn .hair .tfx .nff (.zst behind it or not) or .list, or gen:NAME");
 }
 
 void read_list(const std::filesystem::path& path, Draft& draft) {
@@ -50,7 +51,8 @@ void read_list(const std::filesystem::path& path, Draft& draft) {
     if (camera_only) line.erase(0, line.find_first_not_of(' ', 7));
     const Format& format = format_of(line);
     if (camera_only && format.read != read_pbrt)
-      throw Error(text.where(offset).text(), "only a .pbrt can be read for its camera alone", "leave out the word camera");
+      throw Error(text.where(offset).text(), "only a .pbrt can be read for its camera alone",
+                  "leave out the word camera");
     const auto found = resolve(list.folder, line, text.where(offset), draft);
     if (!found) continue;
     SourceFile file = read_source(*found);
@@ -63,6 +65,12 @@ void read_file(const std::filesystem::path& path, Draft& draft) {
   if (extension_of(path) == "list") return read_list(path, draft);
   const Format& format = format_of(path);
   format.read(read_source(path), draft);
+}
+
+// The file's stem; many scenes are called "scene" and known by their folder.
+std::string title_of(const std::filesystem::path& path) {
+  const std::string stem = stem_of(path), folder = path.parent_path().filename().string();
+  return stem == "scene" && !folder.empty() ? folder : stem;
 }
 
 // One path, or several joined by commas. A file whose own name has a comma is taken as it is.
@@ -91,7 +99,7 @@ Scene load(const std::string& name, const LoadOptions& options) {
   for (const std::string& part : parts_of(name)) {
     read_file(part, draft);
     if (!title.empty()) title += '+';
-    title += stem_of(part);
+    title += title_of(part);
   }
   return finish(std::move(draft), title, name);
 }

@@ -58,7 +58,8 @@ class LuxcoreReader {
       parse_all(value, &camera_.vertical_fov_degrees, 1);
     } else if (key.starts_with("scene.objects.") || key.starts_with("scene.shapes.")) {
       if (key.ends_with(".ply")) return mesh(std::string(value));
-      if (key.ends_with(".transformation")) fail("a transformed object; LuxCore transforms are not read", "bake it into the PLY");
+      if (key.ends_with(".transformation"))
+        fail("a transformed object; LuxCore transforms are not read", "bake it into the PLY");
     }
   }
 
@@ -67,7 +68,8 @@ class LuxcoreReader {
     const std::filesystem::path path(name);
     std::error_code unreadable;
     const bool as_named = std::filesystem::is_regular_file(file_.folder / path, unreadable);
-    const auto found = resolve(file_.folder, as_named ? name : path.filename().string(), text_.where(line_offset_), draft_);
+    const auto found =
+        resolve(file_.folder, as_named ? name : path.filename().string(), text_.where(line_offset_), draft_);
     if (found) append_ply(read_source(*found), draft_);
   }
 
@@ -75,7 +77,8 @@ class LuxcoreReader {
     for (int i = 0; i < count; ++i) {
       value = trimmed(value);
       const std::size_t end = std::min(value.find_first_of(" \t"), value.size());
-      if (!parse_number(value.substr(0, end), numbers[i])) fail(fmt::format("{} finite numbers expected", count), "correct the line");
+      if (!parse_number(value.substr(0, end), numbers[i]))
+        fail(fmt::format("{} finite numbers expected", count), "correct the line");
       value.remove_prefix(end);
     }
   }

@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <string_view>
@@ -31,6 +32,9 @@ class ObjCheck {
     }
     if (largest_ > vertices_) fail_index(largest_line_, std::to_string(largest_), vertices_);
   }
+
+  /// Comments behind a face, which the library takes for indices.
+  bool has_late_comments() const { return has_late_comments_; }
 
  private:
   static std::string_view next_word(std::string_view& line) {
@@ -65,7 +69,11 @@ class ObjCheck {
 
   void check_face(std::string_view line) {
     int corners = 0;
-    for (std::string_view word = next_word(line); !word.empty() && word.front() != '#'; word = next_word(line)) {
+    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+      if (word.front() == '#') {
+        has_late_comments_ = true;
+        break;
+      }
       if (word == "\\") return;
       const std::string_view number = word.substr(0, word.find('/'));
       std::int64_t index = 0;
@@ -93,9 +101,19 @@ class ObjCheck {
   }
 
   const SourceFile& file_;
+  bool has_late_comments_ = false;
   std::uint64_t line_ = 0, largest_line_ = 0;
   std::int64_t vertices_ = 0, largest_ = 0;
 };
+
+std::string without_comments(std::string text) {
+  for (std::size_t at = text.find('#'); at != std::string::npos; at = text.find('#', at)) {
+    const std::size_t end = std::min(text.find_first_of("\n\r", at), text.size());
+    std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+    at = end;
+  }
+  return text;
+}
 
 void append_shape(const tinyobj::shape_t& shape, std::uint64_t base, std::uint64_t vertices, const std::string& where,
                   Draft& draft) {
@@ -106,7 +124,8 @@ void append_shape(const tinyobj::shape_t& shape, std::uint64_t base, std::uint64
     for (std::size_t c = 0; c < 3; ++c) {
       const int index = indices[i + c].vertex_index;
       if (index < 0 || static_cast<std::uint64_t>(index) >= vertices)
-        throw Error(where, fmt::format("names vertex {}, but there are {}", index + 1, vertices), "the file is damaged");
+        throw Error(where, fmt::format("names vertex {}, but there are {}", index + 1, vertices),
+                    "the file is damaged");
       triangle[c] = static_cast<std::uint32_t>(base + static_cast<std::uint64_t>(index));
     }
     draft.mesh.triangles.push_back(triangle);
@@ -117,12 +136,13 @@ void append_shape(const tinyobj::shape_t& shape, std::uint64_t base, std::uint64
 
 void read_obj(const SourceFile& file, Draft& draft) {
   draft.add_format("obj");
-  ObjCheck(file).run();
+  ObjCheck check(file);
+  check.run();
   tinyobj::ObjReaderConfig config;
   config.triangulate = true;
   config.vertex_color = false;
   tinyobj::ObjReader reader;
-  if (!reader.ParseFromString(file.bytes, "", config))
+  if (!reader.ParseFromString(check.has_late_comments() ? without_comments(file.bytes) : file.bytes, "", config))
     throw Error(file.path, "is no OBJ file: " + reader.Error(), "export it again");
 
   const auto& coordinates = reader.GetAttrib().vertices;

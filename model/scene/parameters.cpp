@@ -23,11 +23,11 @@ Parameters::Parameters(std::string where, std::string_view text) : where_(std::m
     text.remove_prefix(std::min(end + 1, text.size()));
     const std::size_t equals = part.find('=');
     if (equals == std::string_view::npos || equals == 0)
-      throw Error(where_, fmt::format("'{}' is not key=value", part), "write it as in gen:hair-ball?strands=2000&seed=1");
+      throw Error(where_, fmt::format("'{}' is not key=value", part),
+                  "write it as in gen:hair-ball?strands=2000&seed=1");
     Entry entry{std::string(part.substr(0, equals)), std::string(part.substr(equals + 1))};
     for (const Entry& other : entries_)
-      if (other.key == entry.key)
-        throw Error(where_, fmt::format("'{}' is given twice", entry.key), "give it once");
+      if (other.key == entry.key) throw Error(where_, fmt::format("'{}' is given twice", entry.key), "give it once");
     entries_.push_back(std::move(entry));
   }
 }

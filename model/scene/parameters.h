@@ -10,7 +10,8 @@ namespace ctu::scene {
 
 class Parameters {
  public:
-  /// Splits "NAME?key=value&..."; `where` is named in messages. Throws Error for a part without '=' or a key given twice.
+  /// Splits "NAME?key=value&..."; `where` is named in messages. Throws Error for a part without '=' or a key given
+  /// twice.
   Parameters(std::string where, std::string_view text);
 
   const std::string& name() const { return name_; }

@@ -33,9 +33,11 @@ constexpr const char* kCorrect = "correct the line";
 // Statements whose arguments say nothing about geometry.
 const std::vector<std::string>& passed_over() {
   static const std::vector<std::string> names = {
-      "Accelerator",   "AreaLightSource",    "ColorSpace", "Film",      "Integrator",  "LightSource",       "MakeNamedMaterial",
-      "MakeNamedMedium", "Material",         "MediumInterface",  "NamedMaterial", "PixelFilter",     "Renderer",
-      "ReverseOrientation", "Sampler",       "SurfaceIntegrator", "Texture",    "TransformTimes",    "VolumeIntegrator"};
+      "Accelerator", "AreaLightSource",    "ColorSpace",        "Film",
+      "Integrator",  "LightSource",        "MakeNamedMaterial", "MakeNamedMedium",
+      "Material",    "MediumInterface",    "NamedMaterial",     "PixelFilter",
+      "Renderer",    "ReverseOrientation", "Sampler",           "SurfaceIntegrator",
+      "Texture",     "TransformTimes",     "VolumeIntegrator"};
   return names;
 }
 
@@ -48,7 +50,8 @@ struct Part {
 /// Copies a part with its vertices moved by `placement`.
 void append_moved(const Mesh& from, const Part& part, const Affine& placement, Mesh& to) {
   const std::size_t base = to.vertices.size();
-  for (std::size_t v = part.first_vertex; v < part.last_vertex; ++v) to.vertices.push_back(placement.vertex(from.vertices[v]));
+  for (std::size_t v = part.first_vertex; v < part.last_vertex; ++v)
+    to.vertices.push_back(placement.vertex(from.vertices[v]));
   const auto shift = static_cast<std::uint32_t>(base - part.first_vertex);  // wraps: only the sum matters
   for (std::size_t t = part.first_triangle; t < part.last_triangle; ++t) {
     const auto& [a, b, c] = from.triangles[t];
@@ -64,7 +67,8 @@ class PbrtReader {
   void run(const SourceFile& file) {
     const auto here = std::filesystem::weakly_canonical(file.path);
     if (std::find(open_files_.begin(), open_files_.end(), here) != open_files_.end())
-      throw Error(file.path, "includes itself, directly or through others", "remove the Include that closes the circle");
+      throw Error(file.path, "includes itself, directly or through others",
+                  "remove the Include that closes the circle");
     if (open_files_.size() >= kDeepestInclude)
       throw Error(file.path, fmt::format("is included more than {} deep", kDeepestInclude), "merge the files");
     open_files_.push_back(here);
@@ -121,10 +125,11 @@ class PbrtReader {
 
   [[noreturn]] static void unknown(std::string_view name, const PbrtText& text) {
     std::vector<std::string> known = passed_over();
-    for (const char* own : {"AttributeBegin", "AttributeEnd", "TransformBegin", "TransformEnd", "ObjectInstance", "Shape",
-                            "Identity", "Transform", "ConcatTransform", "Translate", "Scale", "Rotate", "LookAt",
-                            "CoordinateSystem", "CoordSysTransform", "ActiveTransform", "ObjectBegin", "ObjectEnd",
-                            "Include", "Camera", "WorldBegin", "WorldEnd"})
+    for (const char* own :
+         {"AttributeBegin", "AttributeEnd",     "TransformBegin",    "TransformEnd",    "ObjectInstance", "Shape",
+          "Identity",       "Transform",        "ConcatTransform",   "Translate",       "Scale",          "Rotate",
+          "LookAt",         "CoordinateSystem", "CoordSysTransform", "ActiveTransform", "ObjectBegin",    "ObjectEnd",
+          "Include",        "Camera",           "WorldBegin",        "WorldEnd"})
       known.emplace_back(own);
     text.fail(fmt::format("unknown statement '{}'", name.substr(0, 40)),
               fmt::format("did you mean {}? The file must be pbrt version 3", nearest_name(name.substr(0, 40), known)));
@@ -149,7 +154,8 @@ class PbrtReader {
   }
   void active_transform(PbrtText& text) {
     const std::string_view which = text.statement();
-    if (which != "All" && which != "StartTime" && which != "EndTime") text.fail("is none of All, StartTime, EndTime", kCorrect);
+    if (which != "All" && which != "StartTime" && which != "EndTime")
+      text.fail("is none of All, StartTime, EndTime", kCorrect);
     at_start_ = which != "EndTime";
     if (!at_start_) draft_.warn("pbrt: transforms of the end of a motion are left out");
   }
@@ -217,7 +223,8 @@ class PbrtReader {
   void instance(PbrtText& text) {
     const std::string_view name = text.quoted("an object's name");
     const auto found = objects_.find(name);
-    if (found == objects_.end()) text.fail(fmt::format("there is no object '{}'", name), "define it before its instances");
+    if (found == objects_.end())
+      text.fail(fmt::format("there is no object '{}'", name), "define it before its instances");
     if (object_ != nullptr) text.fail("an instance inside an object", "move it out: pbrt does not nest instances");
     ++draft_.report.instances;
     for (const Part& part : found->second.parts) {
@@ -255,7 +262,8 @@ class PbrtReader {
     for (const PbrtParameter& p : text.parameters({"filename"})) {
       if (p.name != "filename") continue;
       if (p.values.size() != 1) throw Error(p.where.text(), "one file name is wanted", kCorrect);
-      if (const auto path = resolve(folder_, std::string(p.values[0]), p.where, draft_)) append_ply(read_source(*path), target);
+      if (const auto path = resolve(folder_, std::string(p.values[0]), p.where, draft_))
+        append_ply(read_source(*path), target);
       return;
     }
     text.fail("a plymesh without a filename", kCorrect);
@@ -281,27 +289,35 @@ class PbrtReader {
   }
 
   static void append_points(const PbrtParameter& p, Draft& target) {
-    if (p.values.size() % 3 != 0) throw Error(p.where.text(), fmt::format("{} numbers are no whole number of points", p.values.size()), kCorrect);
+    if (p.values.size() % 3 != 0)
+      throw Error(p.where.text(), fmt::format("{} numbers are no whole number of points", p.values.size()), kCorrect);
     target.require_room(p.where, p.values.size() / 3, 0);
     for (std::size_t i = 0; i < p.values.size(); i += 3) {
       Vec3 v;
       for (int axis = 0; axis < 3; ++axis) {
         const std::string_view word = p.values[i + static_cast<std::size_t>(axis)];
-        if (!parse_number(word, v[axis])) throw Error(p.where.text(), fmt::format("'{}' is not a finite binary32 number", word.substr(0, 40)), kCorrect);
+        if (!parse_number(word, v[axis]))
+          throw Error(p.where.text(), fmt::format("'{}' is not a finite binary32 number", word.substr(0, 40)),
+                      kCorrect);
       }
       target.mesh.vertices.push_back(v);
     }
   }
 
   static void append_indices(const PbrtParameter& p, std::size_t base, std::size_t points, Draft& target) {
-    if (p.values.size() % 3 != 0) throw Error(p.where.text(), fmt::format("{} indices are no whole number of triangles", p.values.size()), kCorrect);
+    if (p.values.size() % 3 != 0)
+      throw Error(p.where.text(), fmt::format("{} indices are no whole number of triangles", p.values.size()),
+                  kCorrect);
     target.require_room(p.where, 0, p.values.size() / 3);
     for (std::size_t i = 0; i < p.values.size(); i += 3) {
       std::array<std::uint32_t, 3> triangle{};
       for (std::size_t c = 0; c < 3; ++c) {
         double index = -1;
-        if (!parse_number(p.values[i + c], index) || index < 0 || index >= static_cast<double>(points) || index != std::floor(index))
-          throw Error(p.where.text(), fmt::format("index '{}' names none of the {} points", p.values[i + c].substr(0, 40), points), kCorrect);
+        if (!parse_number(p.values[i + c], index) || index < 0 || index >= static_cast<double>(points) ||
+            index != std::floor(index))
+          throw Error(p.where.text(),
+                      fmt::format("index '{}' names none of the {} points", p.values[i + c].substr(0, 40), points),
+                      kCorrect);
         triangle[c] = static_cast<std::uint32_t>(base + static_cast<std::size_t>(index));
       }
       target.mesh.triangles.push_back(triangle);
@@ -317,7 +333,8 @@ class PbrtReader {
     const auto to_world = inverse(current_);
     if (!to_world) text.fail("the camera's matrix is singular", kCorrect);
     systems_["camera"] = *to_world;
-    if (kind != "perspective") return draft_.warn(fmt::format("pbrt: the camera '{}' is not perspective and was left out", kind));
+    if (kind != "perspective")
+      return draft_.warn(fmt::format("pbrt: the camera '{}' is not perspective and was left out", kind));
     camera_ = *to_world;
     fov_ = fov;
   }

@@ -62,14 +62,16 @@ std::string_view PbrtText::statement() {
 
 std::string_view PbrtText::quoted(std::string_view what) {
   const std::string_view t = token();
-  if (t.size() < 2 || t.front() != '"') fail(fmt::format("{} in quotes should follow, not '{}'", what, t.substr(0, 40)), kCorrect);
+  if (t.size() < 2 || t.front() != '"')
+    fail(fmt::format("{} in quotes should follow, not '{}'", what, t.substr(0, 40)), kCorrect);
   return t.substr(1, t.size() - 2);
 }
 
 double PbrtText::number(std::string_view what) {
   const std::string_view t = token();
   double value;
-  if (!parse_number(t, value)) fail(fmt::format("'{}' is not a finite number, where {} should be", t.substr(0, 40), what), kCorrect);
+  if (!parse_number(t, value))
+    fail(fmt::format("'{}' is not a finite number, where {} should be", t.substr(0, 40), what), kCorrect);
   return value;
 }
 
@@ -88,7 +90,8 @@ std::vector<PbrtParameter> PbrtText::parameters(std::initializer_list<std::strin
     const std::size_t gap = std::min(declared.find_first_of(" \t", first), declared.size());
     const std::size_t name = std::min(declared.find_first_not_of(" \t", gap), declared.size());
     const std::size_t name_end = std::min(declared.find_first_of(" \t", name), declared.size());
-    PbrtParameter p{declared.substr(first, gap - first), declared.substr(name, name_end - name), text_.where(offset), {}};
+    PbrtParameter p{
+        declared.substr(first, gap - first), declared.substr(name, name_end - name), text_.where(offset), {}};
     const bool keep = std::find(wanted.begin(), wanted.end(), p.name) != wanted.end();
     const bool list = take('[');
     while (list ? !take(']') : true) {
@@ -106,6 +109,8 @@ void PbrtText::skip_arguments() {
   while (at_argument()) token();
 }
 
-void PbrtText::fail(const std::string& problem, const std::string& remedy) const { throw Error(where().text(), problem, remedy); }
+void PbrtText::fail(const std::string& problem, const std::string& remedy) const {
+  throw Error(where().text(), problem, remedy);
+}
 
 }  // namespace ctu::scene

@@ -46,11 +46,15 @@ constexpr const char* kDamaged = "the file is damaged: fetch or export it again"
 std::uint64_t bytes_of(Scalar type) {
   switch (type) {
     case Scalar::kInt8:
-    case Scalar::kUint8: return 1;
+    case Scalar::kUint8:
+      return 1;
     case Scalar::kInt16:
-    case Scalar::kUint16: return 2;
-    case Scalar::kFloat64: return 8;
-    default: return 4;
+    case Scalar::kUint16:
+      return 2;
+    case Scalar::kFloat64:
+      return 8;
+    default:
+      return 4;
   }
 }
 
@@ -153,13 +157,20 @@ class BinaryBody {
   std::int64_t integer(Scalar type) {
     constexpr const char* kWhat = "an index or a list's length";
     switch (type) {
-      case Scalar::kInt8: return bytes_.take<std::int8_t>(kWhat);
-      case Scalar::kUint8: return bytes_.take<std::uint8_t>(kWhat);
-      case Scalar::kInt16: return bytes_.take<std::int16_t>(kWhat);
-      case Scalar::kUint16: return bytes_.take<std::uint16_t>(kWhat);
-      case Scalar::kInt32: return bytes_.take<std::int32_t>(kWhat);
-      case Scalar::kUint32: return bytes_.take<std::uint32_t>(kWhat);
-      default: throw Error(bytes_.where(), "an index or a list's length is a floating-point number", kDamaged);
+      case Scalar::kInt8:
+        return bytes_.take<std::int8_t>(kWhat);
+      case Scalar::kUint8:
+        return bytes_.take<std::uint8_t>(kWhat);
+      case Scalar::kInt16:
+        return bytes_.take<std::int16_t>(kWhat);
+      case Scalar::kUint16:
+        return bytes_.take<std::uint16_t>(kWhat);
+      case Scalar::kInt32:
+        return bytes_.take<std::int32_t>(kWhat);
+      case Scalar::kUint32:
+        return bytes_.take<std::uint32_t>(kWhat);
+      default:
+        throw Error(bytes_.where(), "an index or a list's length is a floating-point number", kDamaged);
     }
   }
   void skip(Scalar type, std::uint64_t count) {

@@ -1,6 +1,6 @@
 // One reader a format. Each appends the file's triangles to the draft and throws Error with the file and line (text) or
-// byte (binary) of what it cannot take. Coordinates are rounded to binary32 as the file states them and, where there are
-// transforms, once more after all of them.
+// byte (binary) of what it cannot take. Coordinates are rounded to binary32 as the file states them and, where there
+// are transforms, once more after all of them.
 #pragma once
 
 #include "model/scene/draft.h"

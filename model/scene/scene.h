@@ -25,11 +25,11 @@ struct Camera {
 
 /// What a reader met, for the user and for the counts of the scene's documentation.
 struct LoadReport {
-  std::string format;                  ///< "obj", "ply", "gltf", "pbrt", "hair", "tfx", "nff", "luxcore", "generated"
+  std::string format;  ///< "obj", "ply", "gltf", "pbrt", "hair", "tfx", "nff", "luxcore", "generated"
   std::uint64_t strands = 0, segments = 0;
   std::uint64_t instances = 0;
   std::uint64_t zero_area_triangles = 0;
-  std::vector<std::string> warnings;   ///< one line each: element, what was done
+  std::vector<std::string> warnings;  ///< one line each: element, what was done
 };
 
 struct Scene {

@@ -49,8 +49,8 @@ class TextCursor {
   char comment_;
 };
 
-/// A decimal number as a whole word; a leading '+' is allowed. Numbers too small for the type become zero of their sign.
-/// Returns false for anything else, for NaN and infinities, and for numbers too large.
+/// A decimal number as a whole word; a leading '+' is allowed. Numbers too small for the type become zero of their
+/// sign. Returns false for anything else, for NaN and infinities, and for numbers too large.
 bool parse_number(std::string_view word, float& value);
 bool parse_number(std::string_view word, double& value);
 

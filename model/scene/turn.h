@@ -23,10 +23,14 @@ inline Turn turn(double turns) {
   }
   const double c = 1 + cosine, s = angle * (1 + sine);
   switch (static_cast<int>(quarters) & 3) {
-    case 0: return {c, s};
-    case 1: return {-s, c};
-    case 2: return {-c, -s};
-    default: return {s, -c};
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
   }
 }
 

@@ -1,0 +1,62 @@
+#include "model/base/error.h"
+#include "tests/scene/scene_files.h"
+
+namespace ctu::scene::test {
+namespace {
+
+using ObjTest = SceneFiles;
+
+constexpr const char* kVertices = "# four corners\nv 0 0 0\nv 1 0 0\nv 1 1 0.1\nv 0 1 0\n";
+
+TEST_F(ObjTest, faces_of_every_spelling_name_the_same_vertices) {
+  const std::string cases[] = {"f 1 2 3\nf 1 3 4\n", "vt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\nf 1//1 3//1 4//1\n",
+                               "f -4 -3 -2\nf -4 -2 -1\n", "usemtl none\ng a\nf 1 2 3\ng b\ns 1\nf 1 3 4 # comment\n"};
+  const Hash128 expected = content_hash(load(write("a.obj", kVertices + cases[0])).mesh);
+  for (const std::string& faces : cases) {
+    SCOPED_TRACE(faces);
+    const Scene scene = load(write("b.obj", kVertices + faces));
+    EXPECT_EQ(scene.mesh.triangles.size(), 2u);
+    EXPECT_EQ(content_hash(scene.mesh), expected);
+  }
+}
+
+TEST_F(ObjTest, polygons_become_triangles_over_all_line_ends) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    const Scene scene = load(
+        write("quad.obj", "v 0 0 0" + end + "v 1 0 0" + end + "v 1 1 0.1" + end + "v 0 1 0" + end + "f 1 2 3 4" + end));
+    EXPECT_EQ(scene.mesh.triangles.size(), 2u);
+    EXPECT_EQ(scene.mesh.vertices[2], (Vec3{1, 1, 0.1f}));
+    EXPECT_EQ(scene.report.format, "obj");
+  }
+}
+
+TEST_F(ObjTest, an_index_out_of_range_is_an_error_with_its_line) {
+  expect_error(write("a.obj", kVertices + std::string("f 1 2 3\nf 1 2 5\n")), "a.obj:7",
+               "names vertex 5, but there are 4");
+  expect_error(write("b.obj", kVertices + std::string("f 1 2 -5\n")), "b.obj:6", "names vertex -5");
+  expect_error(write("c.obj", kVertices + std::string("f 0 1 2\n")), "c.obj:6", "names vertex 0");
+  expect_error(write("d.obj", kVertices + std::string("f 1 2 99999999999999999999\n")), "d.obj:6",
+               "not a vertex number");
+}
+
+TEST_F(ObjTest, a_line_that_is_cut_off_or_no_number_is_an_error_with_its_line) {
+  expect_error(write("a.obj", "v 0 0\n"), "a.obj:1", "coordinate");
+  for (const char* number : {"nan", "inf", "1e40", "one"})
+    expect_error(write("b.obj", "v 0 0 0\nv 1 " + std::string(number) + " 0\n"), "b.obj:2", number);
+  expect_error(write("c.obj", kVertices + std::string("f 1 2")), "c.obj:6", "a face with 2 corners");
+  expect_error(write("d.obj", kVertices + std::string("f 1 2 \\\n3\n")), "d.obj:6", "continues");
+}
+
+TEST_F(ObjTest, a_file_without_faces_is_an_error) {
+  expect_error(write("points.obj", kVertices), "points.obj", "no triangles");
+  expect_error(write("empty.obj", ""), "empty.obj", "no triangles");
+}
+
+TEST_F(ObjTest, lines_and_points_are_warned_of) {
+  const Scene scene = load(write("lines.obj", kVertices + std::string("f 1 2 3\nl 1 2\n")));
+  EXPECT_EQ(scene.mesh.triangles.size(), 1u);
+  ASSERT_EQ(scene.report.warnings.size(), 1u);
+}
+
+}  // namespace
+}  // namespace ctu::scene::test
