@@ -43,9 +43,9 @@ inline bool replaces(float t, std::uint32_t primitive, const Hit& best) {
 /// triangle test (Woop, Benthin, Wald 2013, section 3.1).
 struct PreparedRay {
   Ray ray;
-  Vec3 rcp_down, rcp_up;      ///< rcp_down <= 1/d <= rcp_up; unused where d is zero
-  std::uint8_t zero_axes = 0; ///< bit a: direction[a] is +0 or -0
-  std::uint8_t negative_axes = 0;  ///< bit a: direction[a] < 0
+  Vec3 rcp_down, rcp_up;                ///< rcp_down <= 1/d <= rcp_up; unused where d is zero
+  std::uint8_t zero_axes = 0;           ///< bit a: direction[a] is +0 or -0
+  std::uint8_t negative_axes = 0;       ///< bit a: direction[a] < 0
   std::uint8_t kx = 0, ky = 1, kz = 2;  ///< axes after the permutation; kz has the largest |d|
   float sx = 0, sy = 0, sz = 0;         ///< shear constants dx/dz, dy/dz, 1/dz, rounded to nearest
   bool valid = false;

@@ -51,10 +51,12 @@ struct Axis {
   Float4 mirrored(Float4 x) const { return numeric::from_lane_bits(numeric::lane_bits(x) ^ flip); }
 };
 
-template <Round M> Float4 time_at(const Axis& axis, Float4 plane) {
+template <Round M>
+Float4 time_at(const Axis& axis, Float4 plane) {
   const Float4 distance = numeric::portable::sub<M>(axis.mirrored(plane), axis.origin);
   const bool down = M == Round::Down;
-  const Float4 rcp = distance >= 0 ? (down ? axis.rcp_small : axis.rcp_large) : (down ? axis.rcp_large : axis.rcp_small);
+  const Float4 rcp =
+      distance >= 0 ? (down ? axis.rcp_small : axis.rcp_large) : (down ? axis.rcp_large : axis.rcp_small);
   const Float4 time = numeric::portable::mul<M>(distance, rcp);
   return distance == 0 ? splat(0.0f) : time;
 }
@@ -122,7 +124,8 @@ __mmask16 lanes_of(std::uint8_t axes) {
 
 __m512 four_of_each(const Vec3& v) {
   const __m512i axis = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 0, 0, 0, 0);
-  return _mm512_maskz_permutexvar_ps(numeric::embedded::kAll, axis, _mm512_castps128_ps512(_mm_maskz_loadu_ps(7, &v.x)));
+  return _mm512_maskz_permutexvar_ps(numeric::embedded::kAll, axis,
+                                     _mm512_castps128_ps512(_mm_maskz_loadu_ps(7, &v.x)));
 }
 
 /// All three axes of the ray, each mirrored so that it moves upwards.
@@ -159,19 +162,21 @@ __m512 upper_time(const Axes& axes, __m512 plane) {
   return _mm512_maskz_mul_round_ps(moves, distance, _mm512_mask_blend_ps(ahead, axes.rcp_small, axes.rcp_large), kUp);
 }
 
-template <int kAxis> Float4 axis_lanes(__m512 x) {
+template <int kAxis>
+Float4 axis_lanes(__m512 x) {
   return std::bit_cast<Float4>(_mm512_maskz_extractf32x4_ps(0xf, x, kAxis));
 }
 
-template <bool kInner> void slab(const PreparedRay& ray, const Box4& boxes, float tmax, SlabTimes& out) {
+template <bool kInner>
+void slab(const PreparedRay& ray, const Box4& boxes, float tmax, SlabTimes& out) {
   const Axes axes(ray);
   const __m512 lo = _mm512_maskz_loadu_ps(kTwelve, boxes.lo), hi = _mm512_maskz_loadu_ps(kTwelve, boxes.hi);
   const __m512 near = axes.mirrored(_mm512_mask_blend_ps(axes.negative, lo, hi));
   const __m512 far = axes.mirrored(_mm512_mask_blend_ps(axes.negative, hi, lo));
   __m512 near_down = lower_time(axes, near), far_up = upper_time(axes, far);
   // Where the ray does not move along an axis, a comparison decides; the other lanes keep their times.
-  const __mmask16 inside = _mm512_mask_cmp_ps_mask(_mm512_cmp_ps_mask(lo, axes.origin, _CMP_LE_OQ), axes.origin, hi,
-                                                   _CMP_LE_OQ);
+  const __mmask16 inside =
+      _mm512_mask_cmp_ps_mask(_mm512_cmp_ps_mask(lo, axes.origin, _CMP_LE_OQ), axes.origin, hi, _CMP_LE_OQ);
   const __m512 before = _mm512_mask_blend_ps(inside, _mm512_set1_ps(kInfinity), _mm512_set1_ps(-kInfinity));
   const __m512 after = _mm512_mask_blend_ps(inside, _mm512_set1_ps(-kInfinity), _mm512_set1_ps(kInfinity));
   near_down = _mm512_mask_mov_ps(near_down, axes.zero, before);
@@ -186,12 +191,12 @@ template <bool kInner> void slab(const PreparedRay& ray, const Box4& boxes, floa
   }
   const Float4 t0 = later(later(splat(ray.ray.tmin), axis_lanes<0>(near_down)),
                           later(axis_lanes<1>(near_down), axis_lanes<2>(near_down)));
-  const Float4 t1 = earlier(earlier(splat(tmax), axis_lanes<0>(far_up)),
-                            earlier(axis_lanes<1>(far_up), axis_lanes<2>(far_up)));
+  const Float4 t1 =
+      earlier(earlier(splat(tmax), axis_lanes<0>(far_up)), earlier(axis_lanes<1>(far_up), axis_lanes<2>(far_up)));
   numeric::store4(out.t0, t0);
   numeric::store4(out.t1, t1);
-  out.hit = static_cast<std::uint8_t>(
-      _mm_cmp_ps_mask(std::bit_cast<__m128>(t0), std::bit_cast<__m128>(t1), _CMP_LE_OQ));
+  out.hit =
+      static_cast<std::uint8_t>(_mm_cmp_ps_mask(std::bit_cast<__m128>(t0), std::bit_cast<__m128>(t1), _CMP_LE_OQ));
 }
 
 }  // namespace

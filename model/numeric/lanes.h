@@ -69,7 +69,8 @@ typedef std::int64_t WideMask4 __attribute__((vector_size(32)));
 
 namespace portable {
 
-template <Round M> inline Float4 add(Float4 a, Float4 b) {
+template <Round M>
+inline Float4 add(Float4 a, Float4 b) {
   const Float4 nearest = a + b;
   if constexpr (M == Round::Nearest) {
     return detail::canonical(nearest);
@@ -81,24 +82,24 @@ template <Round M> inline Float4 add(Float4 a, Float4 b) {
     const auto rest_b = sum - wide_a;
     const auto error = (wide_a - (sum - rest_b)) + (wide_b - rest_b);
     if constexpr (M == Round::Down) {
-      const Mask4 below =
-          __builtin_convertvector((sum < wide_nearest) | ((sum == wide_nearest) & (error < 0)), Mask4);
+      const Mask4 below = __builtin_convertvector((sum < wide_nearest) | ((sum == wide_nearest) & (error < 0)), Mask4);
       const Mask4 zero = (lane_bits(a) | lane_bits(b)) & detail::kSignBit;
       const Mask4 stepped = lane_bits(detail::step_down(nearest, below));
       return detail::canonical(from_lane_bits(nearest == 0 ? zero : stepped));
     } else {
-      const Mask4 above =
-          __builtin_convertvector((sum > wide_nearest) | ((sum == wide_nearest) & (error > 0)), Mask4);
+      const Mask4 above = __builtin_convertvector((sum > wide_nearest) | ((sum == wide_nearest) & (error > 0)), Mask4);
       return detail::canonical(detail::step_up(nearest, above));
     }
   }
 }
 
-template <Round M> inline Float4 sub(Float4 a, Float4 b) {
+template <Round M>
+inline Float4 sub(Float4 a, Float4 b) {
   return add<M>(a, from_lane_bits(lane_bits(b) ^ detail::kSignBit));
 }
 
-template <Round M> inline Float4 mul(Float4 a, Float4 b) {
+template <Round M>
+inline Float4 mul(Float4 a, Float4 b) {
   if constexpr (M == Round::Nearest) {
     return detail::canonical(a * b);
   } else {
@@ -115,7 +116,8 @@ template <Round M> inline Float4 mul(Float4 a, Float4 b) {
   }
 }
 
-template <Round M> inline Float4 div(Float4 a, Float4 b) {
+template <Round M>
+inline Float4 div(Float4 a, Float4 b) {
   const Float4 nearest = a / b;
   if constexpr (M == Round::Nearest) {
     return detail::canonical(nearest);
@@ -137,26 +139,34 @@ template <Round M> inline Float4 div(Float4 a, Float4 b) {
 #if CTU_EMBEDDED_ROUNDING
 namespace embedded {
 
-template <Round M> inline constexpr int kMode =
-    (M == Round::Nearest ? _MM_FROUND_TO_NEAREST_INT : M == Round::Down ? _MM_FROUND_TO_NEG_INF : _MM_FROUND_TO_POS_INF) |
-    _MM_FROUND_NO_EXC;
+template <Round M>
+inline constexpr int kMode = (M == Round::Nearest ? _MM_FROUND_TO_NEAREST_INT
+                              : M == Round::Down  ? _MM_FROUND_TO_NEG_INF
+                                                  : _MM_FROUND_TO_POS_INF) |
+                             _MM_FROUND_NO_EXC;
 
 // The masked forms with a full mask are the plain instructions; g++ 12 warns about its own header for the plain ones.
 inline constexpr __mmask16 kAll = 0xffff;
 
 inline __m512 widen(Float4 x) { return _mm512_castps128_ps512(std::bit_cast<__m128>(x)); }
-inline Float4 narrow(__m512 x) { return detail::canonical(std::bit_cast<Float4>(_mm512_maskz_extractf32x4_ps(0xf, x, 0))); }
+inline Float4 narrow(__m512 x) {
+  return detail::canonical(std::bit_cast<Float4>(_mm512_maskz_extractf32x4_ps(0xf, x, 0)));
+}
 
-template <Round M> inline Float4 add(Float4 a, Float4 b) {
+template <Round M>
+inline Float4 add(Float4 a, Float4 b) {
   return narrow(_mm512_maskz_add_round_ps(kAll, widen(a), widen(b), kMode<M>));
 }
-template <Round M> inline Float4 sub(Float4 a, Float4 b) {
+template <Round M>
+inline Float4 sub(Float4 a, Float4 b) {
   return narrow(_mm512_maskz_sub_round_ps(kAll, widen(a), widen(b), kMode<M>));
 }
-template <Round M> inline Float4 mul(Float4 a, Float4 b) {
+template <Round M>
+inline Float4 mul(Float4 a, Float4 b) {
   return narrow(_mm512_maskz_mul_round_ps(kAll, widen(a), widen(b), kMode<M>));
 }
-template <Round M> inline Float4 div(Float4 a, Float4 b) {
+template <Round M>
+inline Float4 div(Float4 a, Float4 b) {
   return narrow(_mm512_maskz_div_round_ps(kAll, widen(a), widen(b), kMode<M>));
 }
 
@@ -166,10 +176,22 @@ namespace fastest = embedded;
 namespace fastest = portable;
 #endif
 
-template <Round M> inline Float4 add(Float4 a, Float4 b) { return fastest::add<M>(a, b); }
-template <Round M> inline Float4 sub(Float4 a, Float4 b) { return fastest::sub<M>(a, b); }
-template <Round M> inline Float4 mul(Float4 a, Float4 b) { return fastest::mul<M>(a, b); }
-template <Round M> inline Float4 div(Float4 a, Float4 b) { return fastest::div<M>(a, b); }
+template <Round M>
+inline Float4 add(Float4 a, Float4 b) {
+  return fastest::add<M>(a, b);
+}
+template <Round M>
+inline Float4 sub(Float4 a, Float4 b) {
+  return fastest::sub<M>(a, b);
+}
+template <Round M>
+inline Float4 mul(Float4 a, Float4 b) {
+  return fastest::mul<M>(a, b);
+}
+template <Round M>
+inline Float4 div(Float4 a, Float4 b) {
+  return fastest::div<M>(a, b);
+}
 
 /// With both orders of the operands, equal lanes differ in the sign of a zero at most: -0 orders before +0.
 inline Float4 min(Float4 a, Float4 b) {

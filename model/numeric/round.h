@@ -29,10 +29,14 @@ inline float from_bits(std::uint32_t b) { return std::bit_cast<float>(b); }
 float next_up(float x);
 float next_down(float x);
 
-template <Round M> float add(float a, float b);
-template <Round M> float sub(float a, float b);
-template <Round M> float mul(float a, float b);
-template <Round M> float div(float a, float b);
+template <Round M>
+float add(float a, float b);
+template <Round M>
+float sub(float a, float b);
+template <Round M>
+float mul(float a, float b);
+template <Round M>
+float div(float a, float b);
 float min(float a, float b);
 float max(float a, float b);
 
@@ -44,7 +48,8 @@ inline float canonical(float x) { return x == x ? x : from_bits(kCanonicalNan); 
 
 /// From the nearest result and where the exact one lies, the directed result. Overflow needs no case of its own:
 /// the neighbour of an infinity is the largest finite number.
-template <Round M> float directed(float nearest, bool exact_is_below, bool exact_is_above) {
+template <Round M>
+float directed(float nearest, bool exact_is_below, bool exact_is_above) {
   if constexpr (M == Round::Down) return canonical(exact_is_below ? next_down(nearest) : nearest);
   if constexpr (M == Round::Up) return canonical(exact_is_above ? next_up(nearest) : nearest);
   return canonical(nearest);
@@ -66,7 +71,8 @@ inline float next_down(float x) {
 
 /// The sum in binary64 rounds once more than binary32 can see, so its own error (Knuth's TwoSum, exact: binary64
 /// cannot overflow here) decides when it falls on a binary32 number.
-template <Round M> float add(float a, float b) {
+template <Round M>
+float add(float a, float b) {
   const float nearest = a + b;
   if constexpr (M == Round::Nearest) return detail::canonical(nearest);
   if constexpr (M == Round::Down) {
@@ -81,21 +87,26 @@ template <Round M> float add(float a, float b) {
                              sum > wide_nearest || (on_number && error > 0));
 }
 
-template <Round M> float sub(float a, float b) { return add<M>(a, from_bits(bits(b) ^ 0x80000000u)); }
+template <Round M>
+float sub(float a, float b) {
+  return add<M>(a, from_bits(bits(b) ^ 0x80000000u));
+}
 
 /// The product of two 24-bit significands is exact in binary64, and its exponent is in range.
-template <Round M> float mul(float a, float b) {
+template <Round M>
+float mul(float a, float b) {
   const double exact = static_cast<double>(a) * static_cast<double>(b);
   const float nearest = static_cast<float>(exact);
-  return detail::directed<M>(nearest, exact < nearest, exact > nearest);
+  return detail::directed<M>(nearest, exact<nearest, exact> nearest);
 }
 
 /// The sign of the remainder a - q b says on which side of q the exact quotient lies; q b is exact in binary64.
 /// Quotients by zero or infinity are exact: there q b is a NaN or equals a, and nothing moves.
-template <Round M> float div(float a, float b) {
+template <Round M>
+float div(float a, float b) {
   const float nearest = a / b;
   const double back = static_cast<double>(nearest) * static_cast<double>(b);
-  const bool remainder_below = a < back, remainder_above = a > back;
+  const bool remainder_below = a<back, remainder_above = a> back;
   return detail::directed<M>(nearest, b > 0 ? remainder_below : remainder_above,
                              b > 0 ? remainder_above : remainder_below);
 }

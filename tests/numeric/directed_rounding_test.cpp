@@ -21,17 +21,23 @@ std::string show(float x) {
   return text;
 }
 
-template <Round M> float scalar(Operation operation, float a, float b) {
+template <Round M>
+float scalar(Operation operation, float a, float b) {
   switch (operation) {
-    case Operation::Add: return add<M>(a, b);
-    case Operation::Sub: return sub<M>(a, b);
-    case Operation::Mul: return mul<M>(a, b);
-    case Operation::Div: return div<M>(a, b);
+    case Operation::Add:
+      return add<M>(a, b);
+    case Operation::Sub:
+      return sub<M>(a, b);
+    case Operation::Mul:
+      return mul<M>(a, b);
+    case Operation::Div:
+      return div<M>(a, b);
   }
   return 0;
 }
 
-template <Round M> void expect_oracle_bits(Operation operation) {
+template <Round M>
+void expect_oracle_bits(Operation operation) {
   SCOPED_TRACE(oracle::seed_note());
   for (const auto& [a, b] : operand_pairs(oracle::test_seed(), kRandomPairs)) {
     const float is = scalar<M>(operation, a, b), should = oracle::exact_operation(operation, M, a, b);
@@ -40,16 +46,24 @@ template <Round M> void expect_oracle_bits(Operation operation) {
   }
 }
 
-TEST(DirectedRounding, add_to_nearest_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Nearest>(Operation::Add); }
+TEST(DirectedRounding, add_to_nearest_gives_the_exactly_rounded_bits) {
+  expect_oracle_bits<Round::Nearest>(Operation::Add);
+}
 TEST(DirectedRounding, add_down_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Down>(Operation::Add); }
 TEST(DirectedRounding, add_up_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Up>(Operation::Add); }
-TEST(DirectedRounding, sub_to_nearest_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Nearest>(Operation::Sub); }
+TEST(DirectedRounding, sub_to_nearest_gives_the_exactly_rounded_bits) {
+  expect_oracle_bits<Round::Nearest>(Operation::Sub);
+}
 TEST(DirectedRounding, sub_down_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Down>(Operation::Sub); }
 TEST(DirectedRounding, sub_up_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Up>(Operation::Sub); }
-TEST(DirectedRounding, mul_to_nearest_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Nearest>(Operation::Mul); }
+TEST(DirectedRounding, mul_to_nearest_gives_the_exactly_rounded_bits) {
+  expect_oracle_bits<Round::Nearest>(Operation::Mul);
+}
 TEST(DirectedRounding, mul_down_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Down>(Operation::Mul); }
 TEST(DirectedRounding, mul_up_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Up>(Operation::Mul); }
-TEST(DirectedRounding, div_to_nearest_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Nearest>(Operation::Div); }
+TEST(DirectedRounding, div_to_nearest_gives_the_exactly_rounded_bits) {
+  expect_oracle_bits<Round::Nearest>(Operation::Div);
+}
 TEST(DirectedRounding, div_down_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Down>(Operation::Div); }
 TEST(DirectedRounding, div_up_gives_the_exactly_rounded_bits) { expect_oracle_bits<Round::Up>(Operation::Div); }
 

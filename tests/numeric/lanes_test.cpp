@@ -12,7 +12,8 @@ namespace {
 constexpr int kRandomPairs = 400'000;
 
 /// Holds a four-lane function equal to a scalar one, with other operands in the other lanes.
-template <class Lanes, class Scalar> void expect_same_bits(Lanes lanes, Scalar scalar) {
+template <class Lanes, class Scalar>
+void expect_same_bits(Lanes lanes, Scalar scalar) {
   SCOPED_TRACE(oracle::seed_note());
   std::vector<Pair> pairs = operand_pairs(oracle::test_seed(), kRandomPairs);
   pairs.resize(pairs.size() / 4 * 4);
@@ -30,7 +31,8 @@ template <class Lanes, class Scalar> void expect_same_bits(Lanes lanes, Scalar s
   }
 }
 
-template <Round M> void expect_every_operation_same() {
+template <Round M>
+void expect_every_operation_same() {
   // The form that callers get, embedded rounding where the target has it: the same names for lanes and scalars.
   const auto plus = [](auto a, auto b) { return add<M>(a, b); };
   const auto minus = [](auto a, auto b) { return sub<M>(a, b); };

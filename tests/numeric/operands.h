@@ -17,9 +17,9 @@ inline std::vector<float> corner_operands() {
       0x00000000, 0x00000001, 0x00000002, 0x00000003, 0x00400000, 0x007ffffe, 0x007fffff,  // zero, subnormals
       0x00800000, 0x00800001, 0x00ffffff, 0x01000000, 0x0c800000, 0x19ffffff, 0x1a3504f3, 0x20000000,  // small
       0x3effffff, 0x3f000000, 0x3f7fffff, 0x3f800000, 0x3f800001, 0x3fc00000, 0x40000000, 0x40400000,  // about one
-      0x4b000000, 0x4b7fffff, 0x4b800000, 0x4b800001, 0x5f3504f3, 0x5f7fffff, 0x5f800000,  // large
-      0x7e7fffff, 0x7e800000, 0x7effffff, 0x7f000000, 0x7f000001, 0x7f7ffffe, 0x7f7fffff,  // the largest
-      0x7f800000, 0x7f800001, 0x7fa12345, 0x7fc00000, 0x7fffffff};                         // infinity and NaNs
+      0x4b000000, 0x4b7fffff, 0x4b800000, 0x4b800001, 0x5f3504f3, 0x5f7fffff, 0x5f800000,              // large
+      0x7e7fffff, 0x7e800000, 0x7effffff, 0x7f000000, 0x7f000001, 0x7f7ffffe, 0x7f7fffff,              // the largest
+      0x7f800000, 0x7f800001, 0x7fa12345, 0x7fc00000, 0x7fffffff};  // infinity and NaNs
   std::vector<float> operands;
   for (const std::uint32_t magnitude : magnitudes) {
     operands.push_back(from_bits(magnitude));
@@ -38,12 +38,18 @@ class RandomPairs {
     const float a = from_bits(word());
     const int exponent = static_cast<int>(bits(a) >> 23 & 0xff);
     switch (word() % 6) {
-      case 0: return {a, from_bits(word())};
-      case 1: return {a, with_exponent(exponent + small())};        // sums that cancel, quotients about one
-      case 2: return {a, with_exponent(127 - 126 - 12 - exponent + 127 + 2 * small())};  // products go subnormal
-      case 3: return {a, with_exponent(127 + 127 - exponent + 127 + small())};           // products overflow
-      case 4: return {a, with_exponent(exponent - 127 + small())};                       // quotients overflow
-      default: return {a, with_exponent(exponent + 127 + 12 + 2 * small())};             // quotients go subnormal
+      case 0:
+        return {a, from_bits(word())};
+      case 1:
+        return {a, with_exponent(exponent + small())};  // sums that cancel, quotients about one
+      case 2:
+        return {a, with_exponent(127 - 126 - 12 - exponent + 127 + 2 * small())};  // products go subnormal
+      case 3:
+        return {a, with_exponent(127 + 127 - exponent + 127 + small())};  // products overflow
+      case 4:
+        return {a, with_exponent(exponent - 127 + small())};  // quotients overflow
+      default:
+        return {a, with_exponent(exponent + 127 + 12 + 2 * small())};  // quotients go subnormal
     }
   }
 

@@ -103,8 +103,10 @@ struct Direction {
     cell_low = cell_high = dot(along, corner);
     for (int axis = 0; axis < 3; ++axis) {
       const Integer step = along[axis] * size[axis];
-      if (step < 0) cell_low += step;
-      else cell_high += step;
+      if (step < 0)
+        cell_low += step;
+      else
+        cell_high += step;
     }
   }
   bool separates(const Integer& offset) const {
@@ -153,9 +155,8 @@ std::vector<std::uint8_t> exact_triangle_cells(const Vec3& lo, const Vec3& hi, i
     for (std::size_t y = 0; y < r; ++y) {
       for (std::size_t x = 0; x < r; ++x) {
         const Vec3z shift{Integer(size[0] * x), Integer(size[1] * y), Integer(size[2] * z)};
-        touched[x + r * (y + r * z)] = std::none_of(directions.begin(), directions.end(), [&](const Direction& d) {
-          return d.separates(dot(d.along, shift));
-        });
+        touched[x + r * (y + r * z)] = std::none_of(
+            directions.begin(), directions.end(), [&](const Direction& d) { return d.separates(dot(d.along, shift)); });
       }
     }
   }

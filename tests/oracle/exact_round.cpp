@@ -22,8 +22,10 @@ long binary_exponent(const Rational& x) {
   const auto bits = [](const mpz_class& n) { return static_cast<long>(mpz_sizeinbase(n.get_mpz_t(), 2)); };
   const long guess = bits(x.get_num()) - bits(x.get_den());
   Rational power(1);
-  if (guess >= 0) power <<= static_cast<unsigned long>(guess);
-  else power >>= static_cast<unsigned long>(-guess);
+  if (guess >= 0)
+    power <<= static_cast<unsigned long>(guess);
+  else
+    power >>= static_cast<unsigned long>(-guess);
   return x < power ? guess - 1 : guess;
 }
 
@@ -47,11 +49,13 @@ float special(Operation operation, float a, float b) {
   if (std::isnan(a) || std::isnan(b)) return nan;
   const bool negative = std::signbit(a) != std::signbit(b);
   switch (operation) {
-    case Operation::Sub: return special(Operation::Add, a, -b);
+    case Operation::Sub:
+      return special(Operation::Add, a, -b);
     case Operation::Add:
       if (std::isinf(a) && std::isinf(b)) return negative ? nan : a;
       return std::isinf(a) ? a : b;
-    case Operation::Mul: return a == 0 || b == 0 ? nan : std::copysign(infinity, negative ? -1.0f : 1.0f);
+    case Operation::Mul:
+      return a == 0 || b == 0 ? nan : std::copysign(infinity, negative ? -1.0f : 1.0f);
     case Operation::Div:
       if ((std::isinf(a) && std::isinf(b)) || (a == 0 && b == 0)) return nan;
       return std::isinf(b) ? with_sign(negative, 0) : std::copysign(infinity, negative ? -1.0f : 1.0f);
@@ -66,8 +70,10 @@ float round_rational(const Rational& x, Round round) {
   const Rational magnitude = abs(x);
   const long place = std::max<long>(binary_exponent(magnitude) - (kSignificandBits - 1), kLowestExponent);
   Rational scaled = magnitude;
-  if (place >= 0) scaled >>= static_cast<unsigned long>(place);
-  else scaled <<= static_cast<unsigned long>(-place);
+  if (place >= 0)
+    scaled >>= static_cast<unsigned long>(place);
+  else
+    scaled <<= static_cast<unsigned long>(-place);
   mpz_class whole = scaled.get_num() / scaled.get_den();
   const Rational rest = scaled - whole;
   const bool odd = mpz_odd_p(whole.get_mpz_t());

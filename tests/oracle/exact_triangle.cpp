@@ -59,8 +59,10 @@ bool clip_in_plane(const Vec3q& o, const Vec3q& d, const std::array<Vec3q, 3>& v
       continue;
     }
     const Rational t = -height / rate;
-    if (rate > 0) span.start_at(t);
-    else span.stop_at(t);
+    if (rate > 0)
+      span.start_at(t);
+    else
+      span.stop_at(t);
   }
   return true;
 }

@@ -1,4 +1,4 @@
-// Shared by the oracle's own .cpp files: rationals to and from binary32, exact vectors. Tests do not include it.
+// Shared by the .cpp files that compute with rationals: to and from binary32, exact vectors, intervals of t.
 #pragma once
 
 #include <gmpxx.h>
