@@ -107,13 +107,16 @@ class WideBoxes {
         near = std::max(near, (ray_.negative[axis] ? hi : lo) * ray_.reciprocal[axis] + ray_.near[axis]);
         far = std::min(far, (ray_.negative[axis] ? lo : hi) * ray_.reciprocal[axis] + ray_.far[axis]);
       }
-      t[lane] = near;
-      if (near <= far) hit |= 1u << lane;
+      t[lane] = near - kSubnormalStep;
+      if (t[lane] <= far) hit |= 1u << lane;
     }
     return hit;
   }
 
  private:
+  /// What a t loses when it is rounded to a subnormal number, and to spare. FastBoxes' padding is far above it.
+  static constexpr double kSubnormalStep = 0x1p-148;
+
   PaddedRay<double> ray_;
   double tmin_;
 };

@@ -191,7 +191,8 @@ TEST(FastTracer, equals_brute_force_at_every_scale_and_length_of_direction) {
     const World world(transformed(mesh, scale, 0));
     for (const float length : {1e-30f, 1e-10f, 1.0f, 1e10f, 1e30f})
       check_all(world, 100, [&](Dice& dice) {
-        const Vec3 from = dice.point(2 * scale), to = dice.point(scale / 2);
+        const auto& c = world.mesh().triangles[dice.below(world.mesh().triangles.size())];
+        const Vec3 from = dice.point(2 * scale), to = middle(world.vertex(c[0]), world.vertex(c[1]));
         Vec3 d = minus(to, from);
         for (int axis = 0; axis < 3; ++axis) d[axis] = d[axis] / scale * length;
         return Ray{from, 0, d, kForever};
