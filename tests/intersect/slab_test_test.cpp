@@ -147,22 +147,37 @@ void expect_same_outer_bits(const SlabTimes& outer, const SlabTimes& full, const
   ASSERT_EQ(std::memcmp(outer.t1, full.t1, sizeof full.t1), 0) << show(c, 0) << show(c, 1) << show(c, 2) << show(c, 3);
 }
 
-TEST(SlabTest, every_form_gives_the_same_bits) {
+template <class Full, class Outer> void expect_form_gives_the_defined_bits(Full full_form, Outer outer_form) {
   SCOPED_TRACE(oracle::seed_note());
   HostileBoxes source(oracle::test_seed() + 1);
   for (int i = 0; i < kBitCases; ++i) {
     const BoxCase c = source.next();
     const PreparedRay ray = prepare_ray(c.ray);
-    const SlabTimes full = slab_test(ray, c.boxes, c.tmax);
-    expect_same_bits(portable::slab_test(ray, c.boxes, c.tmax), full, c);
-    SlabTimes outer, portable_outer;
-    slab_test_outer(ray, c.boxes, c.tmax, outer);
-    portable::slab_test_outer(ray, c.boxes, c.tmax, portable_outer);
-    expect_same_outer_bits(outer, full, c);
-    expect_same_outer_bits(portable_outer, full, c);
-    if (HasFatalFailure()) return;
+    const SlabTimes defined = portable::slab_test(ray, c.boxes, c.tmax);
+    expect_same_bits(full_form(ray, c.boxes, c.tmax), defined, c);
+    SlabTimes outer;
+    outer_form(ray, c.boxes, c.tmax, outer);
+    expect_same_outer_bits(outer, defined, c);
+    if (testing::Test::HasFatalFailure()) return;
   }
 }
+
+TEST(SlabTest, the_form_callers_get_gives_the_defined_bits) {
+  expect_form_gives_the_defined_bits(slab_test, slab_test_outer);
+}
+TEST(SlabTest, the_outer_form_gives_the_bits_of_the_full_one) {
+  expect_form_gives_the_defined_bits(portable::slab_test, portable::slab_test_outer);
+}
+#if CTU_FUSED_SLAB
+TEST(SlabTest, fused_multiply_adds_give_the_defined_bits) {
+  expect_form_gives_the_defined_bits(fused::slab_test, fused::slab_test_outer);
+}
+#endif
+#if CTU_EMBEDDED_ROUNDING
+TEST(SlabTest, embedded_rounding_gives_the_defined_bits) {
+  expect_form_gives_the_defined_bits(embedded::slab_test, embedded::slab_test_outer);
+}
+#endif
 
 TEST(SlabTest, known_times_come_out_exactly) {
   Ray ray;
