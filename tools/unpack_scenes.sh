@@ -52,7 +52,8 @@ san_miguel_list() {
 
 main_file() {  # scene: the first that is there of the names a scene's own file can have
   local pattern file
-  for pattern in '*.list' scene.pbrt "$1.pbrt" '*.pbrt' '*.scn' '*.gltf' '*.glb' '*.obj*' '*.hair*' '*.tfx*' '*.nff*' '*.ply*'; do
+  for pattern in '*.list' scene.pbrt "$1.pbrt" '*.pbrt' '*.scn' '*.gltf' '*.glb' \
+    '*.obj*' '*.hair*' '*.tfx*' '*.nff*' '*.ply*'; do
     # shellcheck disable=SC2086
     for file in "$dst/$1"/$pattern; do
       [ -e "$file" ] && { echo "$1/${file##*/}"; return; }
@@ -64,7 +65,8 @@ for folder in "$src"/*/; do
   scene=$(basename "$folder")
   archive="$src/$scene/$scene.tar.zst"
   if [ -e "$archive" ]; then
-    if [ ! -e "$dst/$scene/.unpacked" ] || [ "$archive" -nt "$dst/$scene/.unpacked" ]; then unpack "$archive" "$scene"; fi
+    # -nt holds too if the stamp is not there.
+    if [ "$archive" -nt "$dst/$scene/.unpacked" ]; then unpack "$archive" "$scene"; fi
   else
     mkdir -p "$dst/$scene"
   fi

@@ -64,14 +64,14 @@ void measure(Scene& scene) {
 
 }  // namespace
 
-void Draft::warn(const std::string& text) {
-  for (auto& [known, times] : warnings)
+void Draft::warn(const std::string& text, std::uint64_t times) {
+  for (auto& [known, so_far] : warnings)
     if (known == text) {
-      ++times;
+      so_far += times;
       return;
     }
   if (warnings.size() < kMostWarnings)
-    warnings.emplace_back(text, 1);
+    warnings.emplace_back(text, times);
   else if (warnings.size() == kMostWarnings)
     warnings.emplace_back("further warnings are left out", 1);
 }

@@ -24,7 +24,7 @@ struct Draft {
   std::optional<Camera> camera;  ///< the first that a file states
 
   /// Counts a warning; equal ones become one line with their number.
-  void warn(const std::string& text);
+  void warn(const std::string& text, std::uint64_t times = 1);
   /// Notes the format of one more file; several formats are joined by '+'.
   void add_format(const std::string& format);
   /// Makes room for that many more, which a reader knows to be in its file; throws Error at `where` if the scene would

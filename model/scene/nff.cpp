@@ -10,7 +10,7 @@
 namespace ctu::scene {
 namespace {
 
-// Whitespace is part of the format's lines only for l, f and b, whose tails vary; all else is counted numbers.
+// Lines matter only for l, f, b and the like, whose tails vary and are passed over; all else is counted numbers.
 class NffReader {
  public:
   NffReader(const SourceFile& file, Draft& draft) : text_(file, '#'), draft_(draft) {}

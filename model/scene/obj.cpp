@@ -143,7 +143,7 @@ void read_obj(const SourceFile& file, Draft& draft) {
   config.vertex_color = false;
   tinyobj::ObjReader reader;
   if (!reader.ParseFromString(check.has_late_comments() ? without_comments(file.bytes) : file.bytes, "", config))
-    throw Error(file.path, "is no OBJ file: " + reader.Error(), "export it again");
+    throw Error(file.path, fmt::format("is no OBJ file: {}", reader.Error()), "export it again");
 
   const auto& coordinates = reader.GetAttrib().vertices;
   const std::uint64_t base = draft.mesh.vertices.size(), vertices = coordinates.size() / 3;

@@ -1,13 +1,9 @@
 // The geometry of pbrt-v3 scenes: triangle meshes, PLY meshes, transforms, instances (flattened) and the camera.
 // Source: pbrt.org/fileformat-v3. Materials, textures, lights and film are passed over by name; shapes that are not
 // triangles are refused, and so is a statement that nobody knows, since a misspelt transform would move the scene.
-//
-// AttributeBegin, TransformBegin and ObjectBegin push one and the same stack: San Miguel closes them in crossed order.
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -18,6 +14,8 @@
 #include "model/base/error.h"
 #include "model/base/nearest.h"
 #include "model/scene/affine.h"
+#include "model/scene/pbrt_matrix.h"
+#include "model/scene/pbrt_shape.h"
 #include "model/scene/pbrt_text.h"
 #include "model/scene/readers.h"
 #include "model/scene/resolve.h"
@@ -27,7 +25,6 @@ namespace {
 
 constexpr std::size_t kDeepestInclude = 32;
 constexpr std::uint64_t kMostIncludes = 100'000;
-constexpr std::size_t kDeepestStack = 100'000;
 constexpr const char* kCorrect = "correct the line";
 
 // Statements whose arguments say nothing about geometry.
@@ -41,7 +38,7 @@ const std::vector<std::string>& passed_over() {
   return names;
 }
 
-/// A mesh in some Draft: ranges of its vertices and triangles.
+/// A shape of an object: ranges of vertices and triangles, and the matrix at its definition.
 struct Part {
   std::size_t first_vertex, last_vertex, first_triangle, last_triangle;
   Affine placement;
@@ -62,7 +59,7 @@ void append_moved(const Mesh& from, const Part& part, const Affine& placement, M
 class PbrtReader {
  public:
   PbrtReader(const std::filesystem::path& folder, bool camera_only, Draft& draft)
-      : folder_(folder), camera_only_(camera_only), draft_(draft) {}
+      : folder_(folder), camera_only_(camera_only), draft_(draft), matrix_(draft) {}
 
   void run(const SourceFile& file) {
     const auto here = std::filesystem::weakly_canonical(file.path);
@@ -80,127 +77,35 @@ class PbrtReader {
   void finish() {
     if (camera_) set_camera();
     if (object_ != nullptr) draft_.warn("pbrt: the last ObjectBegin has no ObjectEnd");
+    for (const auto& [warning, times] : library_.warnings) draft_.warn(warning, times);
   }
 
  private:
   struct Object {
     std::vector<Part> parts;
   };
+  struct Statement {
+    const char* name;
+    void (PbrtReader::*obey)(PbrtText&);
+  };
+  static const std::vector<Statement> kStructure;
 
   void statement(PbrtText& text) {
     const std::string_view name = text.statement();
-    if (name == "AttributeBegin" || name == "TransformBegin") return push(text);
-    if (name == "AttributeEnd" || name == "TransformEnd") return pop(text);
-    if (name == "ObjectInstance") return instance(text);
-    if (name == "Shape") return shape(text);
-    if (transform_statement(name, text) || structure_statement(name, text)) return;
+    if (matrix_.take(name, text)) return;
+    for (const auto& [known, obey] : kStructure)
+      if (name == known) return (this->*obey)(text);
     const auto& known = passed_over();
     if (std::find(known.begin(), known.end(), name) == known.end()) unknown(name, text);
     text.skip_arguments();
   }
 
-  bool transform_statement(std::string_view name, PbrtText& text) {
-    if (name == "Identity") return set(Affine{}), true;
-    if (name == "Transform") return set(matrix(text)), true;
-    if (name == "ConcatTransform") return move(matrix(text)), true;
-    if (name == "Translate") return move(translation(vector(text))), true;
-    if (name == "Scale") return move(scaling(vector(text))), true;
-    if (name == "Rotate") return rotate(text), true;
-    if (name == "LookAt") return look_at(text), true;
-    if (name == "CoordinateSystem") return systems_[std::string(text.quoted("a name"))] = current_, true;
-    if (name == "CoordSysTransform") return coordinate_system(text), true;
-    if (name == "ActiveTransform") return active_transform(text), true;
-    return false;
-  }
-
-  bool structure_statement(std::string_view name, PbrtText& text) {
-    if (name == "ObjectBegin") return object_begin(text), true;
-    if (name == "ObjectEnd") return object_end(text), true;
-    if (name == "Include") return include(text), true;
-    if (name == "Camera") return camera(text), true;
-    if (name == "WorldBegin") return world_begin(), true;
-    if (name == "WorldEnd") return done_ = true, true;
-    return false;
-  }
-
   [[noreturn]] static void unknown(std::string_view name, const PbrtText& text) {
     std::vector<std::string> known = passed_over();
-    for (const char* own :
-         {"AttributeBegin", "AttributeEnd",     "TransformBegin",    "TransformEnd",    "ObjectInstance", "Shape",
-          "Identity",       "Transform",        "ConcatTransform",   "Translate",       "Scale",          "Rotate",
-          "LookAt",         "CoordinateSystem", "CoordSysTransform", "ActiveTransform", "ObjectBegin",    "ObjectEnd",
-          "Include",        "Camera",           "WorldBegin",        "WorldEnd"})
-      known.emplace_back(own);
+    known.insert(known.end(), PbrtMatrix::statements().begin(), PbrtMatrix::statements().end());
+    for (const auto& own : kStructure) known.emplace_back(own.name);
     text.fail(fmt::format("unknown statement '{}'", name.substr(0, 40)),
               fmt::format("did you mean {}? The file must be pbrt version 3", nearest_name(name.substr(0, 40), known)));
-  }
-
-  void push(const PbrtText& text) {
-    if (stack_.size() >= kDeepestStack) text.fail("blocks are nested too deep", kCorrect);
-    stack_.push_back(current_);
-  }
-  void pop(const PbrtText& text) {
-    if (stack_.empty()) text.fail("ends a block that was not begun", "remove it, or add the Begin");
-    current_ = stack_.back();
-    stack_.pop_back();
-  }
-
-  // Scenes with motion state transforms for the end of the exposure too; the start counts.
-  void set(const Affine& matrix) {
-    if (at_start_) current_ = matrix;
-  }
-  void move(const Affine& matrix) {
-    if (at_start_) current_ = current_ * matrix;
-  }
-  void active_transform(PbrtText& text) {
-    const std::string_view which = text.statement();
-    if (which != "All" && which != "StartTime" && which != "EndTime")
-      text.fail("is none of All, StartTime, EndTime", kCorrect);
-    at_start_ = which != "EndTime";
-    if (!at_start_) draft_.warn("pbrt: transforms of the end of a motion are left out");
-  }
-
-  static Affine matrix(PbrtText& text) {
-    std::array<double, 16> numbers;
-    text.numbers(numbers.data(), 16, "a matrix");
-    const auto result = from_columns(numbers);
-    if (!result) text.fail("the matrix is a projection: its numbers 4, 8, 12, 16 are not 0 0 0 1", kCorrect);
-    return *result;
-  }
-  static Vector64 vector(PbrtText& text) {
-    double v[3];
-    text.numbers(v, 3, "a vector");
-    return {v[0], v[1], v[2]};
-  }
-  void rotate(PbrtText& text) {
-    double v[4];
-    text.numbers(v, 4, "an angle and an axis");
-    const auto turned = rotation(v[0], {v[1], v[2], v[3]});
-    if (!turned) text.fail("rotates about a zero axis", kCorrect);
-    move(*turned);
-  }
-  // World to camera: x = up cross direction, as pbrt has it (left-handed), y = the true up, z = the direction.
-  void look_at(PbrtText& text) {
-    const Vector64 eye = vector(text), target = vector(text), up = vector(text);
-    const Vector64 z = normalized(target - eye, {0, 0, 0});
-    const Vector64 x = normalized(cross(up, z), {0, 0, 0});
-    if (length(z) == 0 || length(x) == 0) text.fail("looks at its own place, or along its up vector", kCorrect);
-    const Vector64 y = cross(z, x);
-    Affine to_camera;
-    const Vector64 rows[3] = {x, y, z};
-    for (int row = 0; row < 3; ++row) {
-      to_camera.m[row][0] = rows[row].x;
-      to_camera.m[row][1] = rows[row].y;
-      to_camera.m[row][2] = rows[row].z;
-      to_camera.m[row][3] = -dot(rows[row], eye);
-    }
-    move(to_camera);
-  }
-  void coordinate_system(PbrtText& text) {
-    const std::string name(text.quoted("a name"));
-    const auto found = systems_.find(name);
-    if (found == systems_.end()) text.fail(fmt::format("there is no coordinate system '{}'", name), kCorrect);
-    set(found->second);
   }
 
   void include(PbrtText& text) {
@@ -229,99 +134,21 @@ class PbrtReader {
     ++draft_.report.instances;
     for (const Part& part : found->second.parts) {
       draft_.require_room(text.where(), part.last_vertex - part.first_vertex, part.last_triangle - part.first_triangle);
-      append_moved(library_.mesh, part, current_ * part.placement, draft_.mesh);
+      append_moved(library_.mesh, part, matrix_.current() * part.placement, draft_.mesh);
     }
   }
 
   void shape(PbrtText& text) {
-    const std::string_view kind = text.quoted("a shape's name");
-    if (kind != "trianglemesh" && kind != "plymesh") refuse(kind, text);
     Draft& target = object_ != nullptr ? library_ : draft_;
-    Part part{target.mesh.vertices.size(), 0, target.mesh.triangles.size(), 0, current_};
-    if (kind == "plymesh")
-      ply_mesh(text, target);
-    else
-      triangle_mesh(text, target);
+    Part part{target.mesh.vertices.size(), 0, target.mesh.triangles.size(), 0, matrix_.current()};
+    append_pbrt_shape(text, folder_, target);
     part.last_vertex = target.mesh.vertices.size();
     part.last_triangle = target.mesh.triangles.size();
     if (object_ != nullptr)
       object_->parts.push_back(part);
-    else if (!(current_ == Affine{}))
+    else if (!(part.placement == Affine{}))
       for (std::size_t v = part.first_vertex; v < part.last_vertex; ++v)
-        target.mesh.vertices[v] = current_.vertex(target.mesh.vertices[v]);
-  }
-
-  [[noreturn]] static void refuse(std::string_view kind, const PbrtText& text) {
-    if (kind == "sphere") text.fail("a sphere; spheres are not read yet", "remove it, or give it as triangles");
-    if (kind == "loopsubdiv")
-      text.fail("a Loop subdivision surface; they are not read yet", "subdivide it in a modeller and save triangles");
-    text.fail(fmt::format("the shape '{}' is not read", kind.substr(0, 40)), "give it as a trianglemesh or plymesh");
-  }
-
-  void ply_mesh(PbrtText& text, Draft& target) {
-    for (const PbrtParameter& p : text.parameters({"filename"})) {
-      if (p.name != "filename") continue;
-      if (p.values.size() != 1) throw Error(p.where.text(), "one file name is wanted", kCorrect);
-      if (const auto path = resolve(folder_, std::string(p.values[0]), p.where, draft_))
-        append_ply(read_source(*path), target);
-      return;
-    }
-    text.fail("a plymesh without a filename", kCorrect);
-  }
-
-  void triangle_mesh(PbrtText& text, Draft& target) {
-    const std::size_t base = target.mesh.vertices.size();
-    bool has_points = false;
-    const PbrtParameter* indices = nullptr;
-    const std::vector<PbrtParameter> parameters = text.parameters({"P", "indices"});
-    for (const PbrtParameter& p : parameters) {
-      if (p.name == "indices") indices = &p;
-      if (p.name != "P") continue;
-      append_points(p, target);
-      has_points = true;
-    }
-    if (!has_points) text.fail("a trianglemesh without points \"P\"", kCorrect);
-    const std::size_t points = target.mesh.vertices.size() - base;
-    if (indices != nullptr) return append_indices(*indices, base, points, target);
-    if (points != 3) text.fail("a trianglemesh without indices must have three points", kCorrect);
-    const auto first = static_cast<std::uint32_t>(base);
-    target.mesh.triangles.push_back({first, first + 1, first + 2});
-  }
-
-  static void append_points(const PbrtParameter& p, Draft& target) {
-    if (p.values.size() % 3 != 0)
-      throw Error(p.where.text(), fmt::format("{} numbers are no whole number of points", p.values.size()), kCorrect);
-    target.require_room(p.where, p.values.size() / 3, 0);
-    for (std::size_t i = 0; i < p.values.size(); i += 3) {
-      Vec3 v;
-      for (int axis = 0; axis < 3; ++axis) {
-        const std::string_view word = p.values[i + static_cast<std::size_t>(axis)];
-        if (!parse_number(word, v[axis]))
-          throw Error(p.where.text(), fmt::format("'{}' is not a finite binary32 number", word.substr(0, 40)),
-                      kCorrect);
-      }
-      target.mesh.vertices.push_back(v);
-    }
-  }
-
-  static void append_indices(const PbrtParameter& p, std::size_t base, std::size_t points, Draft& target) {
-    if (p.values.size() % 3 != 0)
-      throw Error(p.where.text(), fmt::format("{} indices are no whole number of triangles", p.values.size()),
-                  kCorrect);
-    target.require_room(p.where, 0, p.values.size() / 3);
-    for (std::size_t i = 0; i < p.values.size(); i += 3) {
-      std::array<std::uint32_t, 3> triangle{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        double index = -1;
-        if (!parse_number(p.values[i + c], index) || index < 0 || index >= static_cast<double>(points) ||
-            index != std::floor(index))
-          throw Error(p.where.text(),
-                      fmt::format("index '{}' names none of the {} points", p.values[i + c].substr(0, 40), points),
-                      kCorrect);
-        triangle[c] = static_cast<std::uint32_t>(base + static_cast<std::size_t>(index));
-      }
-      target.mesh.triangles.push_back(triangle);
-    }
+        target.mesh.vertices[v] = part.placement.vertex(target.mesh.vertices[v]);
   }
 
   void camera(PbrtText& text) {
@@ -330,9 +157,9 @@ class PbrtReader {
     for (const PbrtParameter& p : text.parameters({"fov"}))
       if (p.name == "fov" && (p.values.size() != 1 || !parse_number(p.values[0], fov) || !(fov > 0 && fov < 180)))
         throw Error(p.where.text(), "a field of view outside (0, 180) degrees", kCorrect);
-    const auto to_world = inverse(current_);
+    const auto to_world = inverse(matrix_.current());
     if (!to_world) text.fail("the camera's matrix is singular", kCorrect);
-    systems_["camera"] = *to_world;
+    matrix_.remember("camera", *to_world);
     if (kind != "perspective")
       return draft_.warn(fmt::format("pbrt: the camera '{}' is not perspective and was left out", kind));
     camera_ = *to_world;
@@ -352,27 +179,35 @@ class PbrtReader {
     draft_.camera = c;
   }
 
-  void world_begin() {
-    current_ = Affine{};
-    systems_["world"] = current_;
-    at_start_ = true;
+  void world_begin(PbrtText&) {
+    matrix_.begin_world();
     done_ = camera_only_;
   }
+  void world_end(PbrtText&) { done_ = true; }
+  void push(PbrtText& text) { matrix_.push(text); }
+  void pop(PbrtText& text) { matrix_.pop(text); }
 
   const std::filesystem::path folder_;
   const bool camera_only_;
   Draft& draft_;
+  PbrtMatrix matrix_;
   Draft library_;  ///< the parts of objects, not yet placed
   std::map<std::string, Object, std::less<>> objects_;
   Object* object_ = nullptr;
-  std::map<std::string, Affine> systems_;
-  Affine current_;
-  std::vector<Affine> stack_;
   std::vector<std::filesystem::path> open_files_;
   std::uint64_t includes_ = 0;
-  bool at_start_ = true, done_ = false;
+  bool done_ = false;
   std::optional<Affine> camera_;
   double fov_ = 90;
+};
+
+const std::vector<PbrtReader::Statement> PbrtReader::kStructure = {
+    {"AttributeBegin", &PbrtReader::push},      {"AttributeEnd", &PbrtReader::pop},
+    {"TransformBegin", &PbrtReader::push},      {"TransformEnd", &PbrtReader::pop},
+    {"ObjectBegin", &PbrtReader::object_begin}, {"ObjectEnd", &PbrtReader::object_end},
+    {"ObjectInstance", &PbrtReader::instance},  {"Shape", &PbrtReader::shape},
+    {"Include", &PbrtReader::include},          {"Camera", &PbrtReader::camera},
+    {"WorldBegin", &PbrtReader::world_begin},   {"WorldEnd", &PbrtReader::world_end},
 };
 
 }  // namespace
