@@ -7,11 +7,7 @@
 
 namespace ctu::intersect::embedded {
 
-using detail::earlier;
-using detail::later;
-using numeric::Float4;
 using numeric::Round;
-using numeric::splat;
 
 namespace {
 
@@ -19,9 +15,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 constexpr __mmask16 kTwelve = 0x0fff;  // lanes 4a .. 4a+3 are axis a
 
-__mmask16 lanes_of(std::uint8_t axes) {
-  return static_cast<__mmask16>((axes & 1 ? 0x00f : 0) | (axes & 2 ? 0x0f0 : 0) | (axes & 4 ? 0xf00 : 0));
-}
+/// The lanes of a set of axes, by its bits.
+constexpr __mmask16 kLanesOf[8] = {0x000, 0x00f, 0x0f0, 0x0ff, 0xf00, 0xf0f, 0xff0, 0xfff};
 
 __m512 four_of_each(const Vec3& v) {
   const __m512i axis = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 0, 0, 0, 0);
@@ -36,8 +31,8 @@ struct Axes {
   __mmask16 negative, zero;
 
   explicit Axes(const PreparedRay& ray) {
-    negative = lanes_of(ray.negative_axes);
-    zero = lanes_of(ray.zero_axes);
+    negative = kLanesOf[ray.negative_axes];
+    zero = kLanesOf[ray.zero_axes];
     flip = _mm512_maskz_set1_epi32(negative, numeric::detail::kSignBit);
     origin = mirrored(four_of_each(ray.ray.origin));
     const __m512 down = four_of_each(ray.rcp_down), up = four_of_each(ray.rcp_up);
@@ -64,9 +59,13 @@ __m512 upper_time(const Axes& axes, __m512 plane) {
 }
 
 template <int kAxis>
-Float4 axis_lanes(__m512 x) {
-  return std::bit_cast<Float4>(_mm512_maskz_extractf32x4_ps(0xf, x, kAxis));
+__m128 axis_lanes(__m512 x) {
+  return _mm512_maskz_extractf32x4_ps(0xf, x, kAxis);
 }
+
+/// IEEE 754 max and min, -0 before +0: bits 1-0 choose the operation, bits 3-2 the sign that it gives.
+__m128 later(__m128 a, __m128 b) { return _mm_range_ps(a, b, 0b0101); }
+__m128 earlier(__m128 a, __m128 b) { return _mm_range_ps(a, b, 0b0100); }
 
 template <bool kInner>
 void slab(const PreparedRay& ray, const Box4& boxes, float tmax, SlabTimes& out) {
@@ -90,14 +89,13 @@ void slab(const PreparedRay& ray, const Box4& boxes, float tmax, SlabTimes& out)
     _mm512_mask_storeu_ps(out.far_down, kTwelve, far_down);
     _mm512_mask_storeu_ps(out.far_up, kTwelve, far_up);
   }
-  const Float4 t0 = later(later(splat(ray.ray.tmin), axis_lanes<0>(near_down)),
+  const __m128 t0 = later(later(_mm_set1_ps(ray.ray.tmin), axis_lanes<0>(near_down)),
                           later(axis_lanes<1>(near_down), axis_lanes<2>(near_down)));
-  const Float4 t1 =
-      earlier(earlier(splat(tmax), axis_lanes<0>(far_up)), earlier(axis_lanes<1>(far_up), axis_lanes<2>(far_up)));
-  numeric::store4(out.t0, t0);
-  numeric::store4(out.t1, t1);
-  out.hit =
-      static_cast<std::uint8_t>(_mm_cmp_ps_mask(std::bit_cast<__m128>(t0), std::bit_cast<__m128>(t1), _CMP_LE_OQ));
+  const __m128 t1 =
+      earlier(earlier(_mm_set1_ps(tmax), axis_lanes<0>(far_up)), earlier(axis_lanes<1>(far_up), axis_lanes<2>(far_up)));
+  _mm_storeu_ps(out.t0, t0);
+  _mm_storeu_ps(out.t1, t1);
+  out.hit = static_cast<std::uint8_t>(_mm_cmp_ps_mask(t0, t1, _CMP_LE_OQ));
 }
 
 }  // namespace

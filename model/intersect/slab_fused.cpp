@@ -10,7 +10,6 @@
 
 #include <immintrin.h>
 
-#include <cstring>
 #include <limits>
 
 namespace ctu::intersect::fused {
@@ -130,7 +129,7 @@ bool slab(const PreparedRay& ray, const Box4& boxes, float tmax, SlabTimes& out)
 
 SlabTimes slab_test(const PreparedRay& ray, const Box4& boxes, float tmax) {
   SlabTimes out;
-  if (!slab<true>(ray, boxes, tmax, out)) return portable::slab_test(ray, boxes, tmax);
+  if (!slab<true>(ray, boxes, tmax, out)) out = portable::slab_test(ray, boxes, tmax);
   return out;
 }
 

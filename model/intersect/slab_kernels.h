@@ -30,16 +30,4 @@ CTU_SLAB_FORM(embedded)
 
 #undef CTU_SLAB_FORM
 
-namespace detail {
-
-/// max and min of lanes that hold no NaN: -0 orders before +0.
-inline numeric::Float4 later(numeric::Float4 a, numeric::Float4 b) {
-  return numeric::from_lane_bits(numeric::lane_bits(a > b ? a : b) & numeric::lane_bits(b > a ? b : a));
-}
-inline numeric::Float4 earlier(numeric::Float4 a, numeric::Float4 b) {
-  return numeric::from_lane_bits(numeric::lane_bits(a < b ? a : b) | numeric::lane_bits(b < a ? b : a));
-}
-
-}  // namespace detail
-
 }  // namespace ctu::intersect

@@ -6,8 +6,6 @@
 
 namespace ctu::intersect::portable {
 
-using detail::earlier;
-using detail::later;
 using numeric::Float4;
 using numeric::Mask4;
 using numeric::Round;
@@ -16,6 +14,14 @@ using numeric::splat;
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// max and min of lanes that hold no NaN: -0 orders before +0.
+Float4 later(Float4 a, Float4 b) {
+  return numeric::from_lane_bits(numeric::lane_bits(a > b ? a : b) & numeric::lane_bits(b > a ? b : a));
+}
+Float4 earlier(Float4 a, Float4 b) {
+  return numeric::from_lane_bits(numeric::lane_bits(a < b ? a : b) | numeric::lane_bits(b < a ? b : a));
+}
 
 /// One axis of the ray, mirrored so that it moves upwards.
 struct Axis {
