@@ -91,4 +91,19 @@ std::vector<intersect::Ray> random_rays(const scene::Scene& scene, int count, st
   return rays;
 }
 
+std::vector<intersect::Ray> aimed_rays(const scene::Scene& scene, int count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const Vec3 middle = 0.5f * (scene.lower + scene.upper), extent = scene.upper - scene.lower;
+  std::vector<intersect::Ray> rays;
+  for (int i = 0; i < count; ++i) {
+    const auto& corners = scene.mesh.triangles[random() % scene.mesh.triangles.size()];
+    const Vec3 a = scene.mesh.vertices[corners[0]], b = scene.mesh.vertices[corners[1]];
+    const Vec3 at = random() % 2 == 0 ? a : 0.5f * (a + b);
+    const Vec3 out = cosine_direction({0, 0, 0}, random);
+    const Vec3 from = middle + 1.5f * std::sqrt(dot(extent, extent)) * out;
+    rays.push_back({from, 0, at - from, kForever});
+  }
+  return rays;
+}
+
 }  // namespace ctu::test

@@ -20,4 +20,7 @@ std::vector<intersect::Ray> diffuse_rays(const scene::Scene& scene, const refere
 /// Lines between two random points of the scene's bounds, grown by half; whole lines, not segments.
 std::vector<intersect::Ray> random_rays(const scene::Scene& scene, int count, std::uint64_t seed);
 
+/// From outside the scene's bounds at vertices and at the middles of edges, where tests by rounding differ most.
+std::vector<intersect::Ray> aimed_rays(const scene::Scene& scene, int count, std::uint64_t seed);
+
 }  // namespace ctu::test
