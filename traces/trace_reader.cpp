@@ -13,9 +13,6 @@
 namespace ctu::traces {
 namespace {
 
-using intersect::Hit;
-using intersect::Ray;
-using reference::Step;
 using reference::StepList;
 
 std::string steps_name(cull::Design design) {
@@ -126,8 +123,8 @@ bool TraceReader::has_steps(cull::Design design) const {
 }
 
 template <class T>
-std::vector<T> TraceReader::read_column(const std::string& section, const char* column, std::uint64_t block,
-                                        std::optional<std::uint64_t> elements) const {
+std::vector<T> TraceReader::read_column(ColumnDecoder& decoder, const std::string& section, const char* column,
+                                        std::uint64_t block, std::optional<std::uint64_t> elements) const {
   const std::size_t s = section_number(section);
   const auto& columns = manifest_.sections[s].columns;
   const auto c = static_cast<std::size_t>(
@@ -140,7 +137,6 @@ std::vector<T> TraceReader::read_column(const std::string& section, const char* 
   const std::vector<std::uint8_t> frame = read_frame(file_, entry, section.c_str());
   ColumnDecoder::check_size(frame, entry.elements, sizeof(T), path(), what);
   std::vector<T> values(entry.elements);
-  ColumnDecoder decoder;
   decoder.decode(frame, entry.elements, sizeof(T), entry.checksum, values.data(), path(), what);
   return values;
 }
@@ -152,8 +148,9 @@ accel::Image TraceReader::read_image() const {
   for (const std::uint32_t entry : entries) bytes += std::uint64_t{index_[entry].elements} * sizeof(std::uint32_t);
   if (bytes != manifest_.image.size_bytes) refuse("image", "not as many bytes as the manifest says");
   accel::Image image = manifest_.image.shape;
+  ColumnDecoder decoder;
   for (std::uint64_t block = 0; block < entries.size(); ++block) {
-    const auto words = read_column<std::uint32_t>("image", "words", block, std::nullopt);
+    const auto words = read_column<std::uint32_t>(decoder, "image", "words", block, std::nullopt);
     const auto* first = reinterpret_cast<const std::uint8_t*>(words.data());
     image.bytes.insert(image.bytes.end(), first, first + words.size() * sizeof(std::uint32_t));
   }
@@ -168,71 +165,78 @@ accel::Image TraceReader::read_image() const {
   return image;
 }
 
+void TraceReader::read_rays(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const {
+  static constexpr const char* kOrigin[] = {"origin_x", "origin_y", "origin_z"};
+  static constexpr const char* kDirection[] = {"direction_x", "direction_y", "direction_z"};
+  const std::uint64_t count = out.rays.size();
+  const auto column = [&](const char* name) { return read_column<float>(decoder, "rays", name, block, count); };
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<float> origin = column(kOrigin[axis]), direction = column(kDirection[axis]);
+    for (std::uint64_t i = 0; i < count; ++i) out.rays[i].origin[axis] = origin[i];
+    for (std::uint64_t i = 0; i < count; ++i) out.rays[i].direction[axis] = direction[i];
+  }
+  const std::vector<float> tmin = column("tmin"), tmax = column("tmax");
+  const auto kind = read_column<std::uint8_t>(decoder, "rays", "kind", block, count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (kind[i] > 1) refuse("rays", fmt::format("ray {} is of kind {}, which is none", out.first_ray + i, kind[i]));
+    out.rays[i].tmin = tmin[i];
+    out.rays[i].tmax = tmax[i];
+    out.rays[i].kind = static_cast<intersect::RayKind>(kind[i]);
+  }
+}
+
+void TraceReader::read_hits(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const {
+  const std::uint64_t count = out.expected.size();
+  const auto column = [&](const char* name) { return read_column<float>(decoder, "hits", name, block, count); };
+  const std::vector<float> t = column("t"), u = column("u"), v = column("v");
+  const auto primitive = read_column<std::uint32_t>(decoder, "hits", "primitive", block, count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (primitive[i] != intersect::kNoPrimitive && primitive[i] >= manifest_.scene.triangles)
+      refuse("hits", fmt::format("ray {} hits primitive {}, which the scene does not have", out.first_ray + i, primitive[i]));
+    out.expected[i] = {t[i], u[i], v[i], primitive[i]};
+  }
+}
+
+void TraceReader::read_steps(ColumnDecoder& decoder, std::uint64_t block, cull::Design design,
+                             reference::RayBlock& out) const {
+  const std::string section = steps_name(design);
+  if (!has_steps(design)) refuse(section, "the trace has no steps of this design");
+  const std::uint64_t count = out.rays.size();
+  StepList& list = out.steps;
+  list.first_step.reserve(count + 1);
+  for (const std::uint32_t steps : read_column<std::uint32_t>(decoder, section, "steps", block, count))
+    list.first_step.push_back(list.first_step.back() + steps);
+  list.tail_dropped = read_column<std::uint8_t>(decoder, section, "tail_dropped", block, count);
+  const std::uint64_t total = list.first_step.back();
+  const auto refs = read_column<std::uint32_t>(decoder, section, "ref", block, total);
+  const auto dropped = read_column<std::uint8_t>(decoder, section, "dropped", block, total);
+  const auto lanes = read_column<std::uint8_t>(decoder, section, "lanes", block, total);
+  const auto detail = read_column<std::uint16_t>(decoder, section, "detail", block, total);
+  list.steps.resize(total);
+  for (std::uint64_t i = 0; i < total; ++i) list.steps[i] = {refs[i], dropped[i], lanes[i], detail[i]};
+
+  const bool keyed = cull::event_class(design) == cull::Design::MaskLut;
+  list.first_key.assign(count + 1, 0);
+  if (!keyed) return;
+  std::uint64_t keys = 0;
+  for (std::uint64_t ray = 0; ray < count; ++ray) {
+    for (std::uint64_t i = list.first_step[ray]; i < list.first_step[ray + 1]; ++i)
+      if (!list.steps[i].is_leaf()) keys += static_cast<std::uint64_t>(std::popcount(list.steps[i].box_hits()));
+    list.first_key[ray + 1] = keys;
+  }
+  list.keys = read_column<std::uint32_t>(decoder, section, "key", block, keys);
+}
+
 reference::RayBlock TraceReader::read_block(std::uint64_t block, std::optional<cull::Design> steps_of) const {
   if (block >= blocks()) refuse("rays", fmt::format("there is no block {}", block));
   reference::RayBlock out;
   out.first_ray = first_ray_[block];
-  const std::uint64_t count = first_ray_[block + 1] - first_ray_[block];
-  out.rays.resize(count);
-  out.expected.resize(count);
-
-  const auto scatter = [&]<class T>(const char* section, const char* column, auto&& set, T) {
-    const std::vector<T> values = read_column<T>(section, column, block, count);
-    for (std::uint64_t i = 0; i < count; ++i) set(i, values[i]);
-  };
-  static constexpr const char* kOrigin[] = {"origin_x", "origin_y", "origin_z"};
-  static constexpr const char* kDirection[] = {"direction_x", "direction_y", "direction_z"};
-  for (int axis = 0; axis < 3; ++axis) {
-    scatter("rays", kOrigin[axis], [&](std::uint64_t i, float x) { out.rays[i].origin[axis] = x; }, 0.0f);
-    scatter("rays", kDirection[axis], [&](std::uint64_t i, float x) { out.rays[i].direction[axis] = x; }, 0.0f);
-  }
-  scatter("rays", "tmin", [&](std::uint64_t i, float x) { out.rays[i].tmin = x; }, 0.0f);
-  scatter("rays", "tmax", [&](std::uint64_t i, float x) { out.rays[i].tmax = x; }, 0.0f);
-  const auto set_kind = [&](std::uint64_t i, std::uint8_t kind) {
-    if (kind > 1) refuse("rays", fmt::format("ray {} is of kind {}, which is none", out.first_ray + i, kind));
-    out.rays[i].kind = static_cast<intersect::RayKind>(kind);
-  };
-  scatter("rays", "kind", set_kind, std::uint8_t{});
-  scatter("hits", "t", [&](std::uint64_t i, float x) { out.expected[i].t = x; }, 0.0f);
-  scatter("hits", "u", [&](std::uint64_t i, float x) { out.expected[i].u = x; }, 0.0f);
-  scatter("hits", "v", [&](std::uint64_t i, float x) { out.expected[i].v = x; }, 0.0f);
-  const auto set_primitive = [&](std::uint64_t i, std::uint32_t primitive) {
-    if (primitive != intersect::kNoPrimitive && primitive >= manifest_.scene.triangles)
-      refuse("hits", fmt::format("ray {} hits primitive {}, which the scene does not have", out.first_ray + i, primitive));
-    out.expected[i].primitive = primitive;
-  };
-  scatter("hits", "primitive", set_primitive, std::uint32_t{});
-  if (!steps_of) return out;
-
-  if (!has_steps(*steps_of)) refuse(steps_name(*steps_of), "the trace has no steps of this design");
-  const std::string section = steps_name(*steps_of);
-  StepList& list = out.steps;
-  const auto counts = read_column<std::uint32_t>(section, "steps", block, count);
-  for (const std::uint32_t steps : counts) list.first_step.push_back(list.first_step.back() + steps);
-  const std::uint64_t total = list.first_step.back();
-  list.tail_dropped = read_column<std::uint8_t>(section, "tail_dropped", block, count);
-  {
-    const auto refs = read_column<std::uint32_t>(section, "ref", block, total);
-    list.steps.resize(total);
-    for (std::uint64_t i = 0; i < total; ++i) list.steps[i].ref = refs[i];
-  }
-  const auto dropped = read_column<std::uint8_t>(section, "dropped", block, total);
-  const auto lanes = read_column<std::uint8_t>(section, "lanes", block, total);
-  const auto detail = read_column<std::uint16_t>(section, "detail", block, total);
-  for (std::uint64_t i = 0; i < total; ++i) {
-    list.steps[i].dropped = dropped[i];
-    list.steps[i].lanes = lanes[i];
-    list.steps[i].detail = detail[i];
-  }
-  const bool keyed = cull::event_class(*steps_of) == cull::Design::MaskLut;
-  std::uint64_t keys = 0;
-  for (std::uint64_t ray = 0; ray < count; ++ray) {
-    if (keyed)
-      for (std::uint64_t i = list.first_step[ray]; i < list.first_step[ray + 1]; ++i)
-        if (!list.steps[i].is_leaf()) keys += static_cast<std::uint64_t>(std::popcount(list.steps[i].box_hits()));
-    list.first_key.push_back(keys);
-  }
-  if (keyed) list.keys = read_column<std::uint32_t>(section, "key", block, keys);
+  out.rays.resize(first_ray_[block + 1] - first_ray_[block]);
+  out.expected.resize(out.rays.size());
+  ColumnDecoder decoder;
+  read_rays(decoder, block, out);
+  read_hits(decoder, block, out);
+  if (steps_of) read_steps(decoder, block, *steps_of, out);
   return out;
 }
 

@@ -51,8 +51,11 @@ class TraceReader {
   std::size_t section_number(const std::string& name) const;  ///< sections.size() when there is none
   void expect_columns(const Section& wanted, std::size_t section) const;
   template <class T>
-  std::vector<T> read_column(const std::string& section, const char* column, std::uint64_t block,
-                             std::optional<std::uint64_t> elements) const;
+  std::vector<T> read_column(ColumnDecoder& decoder, const std::string& section, const char* column,
+                             std::uint64_t block, std::optional<std::uint64_t> elements) const;
+  void read_rays(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const;
+  void read_hits(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const;
+  void read_steps(ColumnDecoder& decoder, std::uint64_t block, cull::Design design, reference::RayBlock& out) const;
   std::string describe(const IndexEntry& entry) const;
   [[noreturn]] void refuse(const std::string& section, const std::string& what) const;
 
