@@ -91,6 +91,19 @@ TEST_F(PbrtTest, a_file_that_is_not_there_is_an_error_unless_it_is_listed_as_mis
   EXPECT_NE(scene.report.warnings[0].find("lost.ply"), std::string::npos);
 }
 
+TEST_F(PbrtTest, warnings_of_the_parts_of_an_object_are_kept) {
+  write(
+      "tail.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n1 0 0 0 1 0 0 0 1\n3 0 1 2\nmore\n");
+  const Scene scene = load(write("a.pbrt",
+                                 "WorldBegin ObjectBegin \"o\" Shape \"plymesh\" \"string filename\" \"tail.ply\" "
+                                 "ObjectEnd ObjectInstance \"o\" ObjectInstance \"o\"\n"));
+  EXPECT_EQ(scene.mesh.triangles.size(), 2u);
+  ASSERT_EQ(scene.report.warnings.size(), 1u);
+  EXPECT_NE(scene.report.warnings[0].find("tail.ply"), std::string::npos);
+}
+
 TEST_F(PbrtTest, includes_in_a_circle_are_an_error) {
   write("b.pbrt", "Include \"c.pbrt\"\n");
   write("c.pbrt", "Include \"./b.pbrt\"\n");
