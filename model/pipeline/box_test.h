@@ -18,6 +18,7 @@ namespace ctu::pipeline {
 template <class Source, class Wiring>
 class BoxTest {
  public:
+  static constexpr const char* kName = "box_test";
   typename Wiring::template In<RefToken> node;
   typename Wiring::template Out<NodeToken> tested;
 
@@ -37,7 +38,7 @@ class BoxTest {
   std::uint64_t nodes() const { return nodes_; }
   std::uint64_t box_hits() const { return box_hits_; }
 
-  Account account{"box_test", {Activity::OutputFull}};
+  Account account{kName, {Activity::OutputFull}};
 
  private:
   Contexts& contexts_;

@@ -20,6 +20,7 @@ namespace ctu::pipeline {
 template <class Source, class Wiring>
 class CellLocate {
  public:
+  static constexpr const char* kName = "cell_locate";
   typename Wiring::template In<NodeToken> tested;
   typename Wiring::template Out<NodeToken> located;
 
@@ -42,7 +43,7 @@ class CellLocate {
   /// Cycles in which the entrance was taken.
   std::uint64_t occupied() const { return occupied_; }
 
-  Account account{"cell_locate", {Activity::OutputFull}};
+  Account account{kName, {Activity::OutputFull}};
 
  private:
   static bool compares(const UnitConfig& config) { return config.mask_test.design == cull::Design::Comparators; }

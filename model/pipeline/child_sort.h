@@ -16,6 +16,7 @@ namespace ctu::pipeline {
 template <class Source, class Wiring>
 class ChildSort {
  public:
+  static constexpr const char* kName = "child_sort";
   typename Wiring::template In<NodeToken> survivors;
   typename Wiring::template Out<NodeToken> sorted;
 
@@ -30,7 +31,7 @@ class ChildSort {
   }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
 
-  Account account{"child_sort", {Activity::OutputFull}};
+  Account account{kName, {Activity::OutputFull}};
 
  private:
   Contexts& contexts_;

@@ -7,13 +7,11 @@ namespace ctu::pipeline {
 
 /// Calls `join(name, out, in)` for every link of the unit, left-out parts excepted.
 template <class Source, class Wiring, class Join>
-void for_each_link(Stages<Source, Wiring>& stages, bool has_mask_test, bool has_spills, Join&& join) {
+void for_each_link(Stages<Source, Wiring>& stages, bool has_spills, Join&& join) {
   auto& ray_queue = Wiring::stage(stages.ray_queue);
   auto& scheduler = Wiring::stage(stages.scheduler);
   auto& node_fetch = Wiring::stage(stages.node_fetch);
   auto& box_test = Wiring::stage(stages.box_test);
-  auto& cell_locate = Wiring::stage(stages.cell_locate);
-  auto& mask_test = Wiring::stage(stages.mask_test);
   auto& child_sort = Wiring::stage(stages.child_sort);
   auto& stack = Wiring::stage(stages.traversal_stack);
   auto& leaf_fetch = Wiring::stage(stages.leaf_fetch);
@@ -30,7 +28,9 @@ void for_each_link(Stages<Source, Wiring>& stages, bool has_mask_test, bool has_
   join("scheduler_to_node", scheduler.to_node_fetch, node_fetch.requests);
   join("scheduler_to_leaf", scheduler.to_leaf_fetch, leaf_fetch.requests);
   join("node_to_box", node_fetch.done, box_test.node);
-  if (has_mask_test) {
+  if (stages.mask_test) {
+    auto& cell_locate = Wiring::stage(*stages.cell_locate);
+    auto& mask_test = Wiring::stage(*stages.mask_test);
     join("box_to_locate", box_test.tested, cell_locate.tested);
     join("locate_to_mask", cell_locate.located, mask_test.located);
     join("mask_to_sort", mask_test.survivors, child_sort.survivors);

@@ -62,15 +62,15 @@ class PlainEngine final : public Engine {
         skip_idle_(options.skip_idle && !options.backpressure.any()),
         watchdog_(static_cast<Cycle>(config.watchdog.cycles)),
         progress_(options.progress) {
-    for_each_link(stages_, state_.has_mask_test, stages_.traversal_stack.can_spill(),
+    for_each_link(stages_, state_.has_spills,
                   [&](const char* name, auto& out, auto& in) { links_.join(name, out, in); });
-    for_each_stage([&](auto& stage) { links_.probes().stages.push_back(&stage.account); });
+    for_each_stage(stages_, [&](auto& stage) { links_.probes().stages.push_back(&stage.account); });
     if (!options.waves_path.empty())
       waves_ = std::make_unique<WaveWriter>(options.waves_path, links_.probes(), options.waves_first, options.waves_last);
   }
 
   bool advance(Cycle until) override {
-    while (!finished()) {
+    while (!all_returned(stages_)) {
       if (now_ >= until) return false;
       const bool watched = waves_ != nullptr && waves_->wants(now_);
       if (watched) waves_->sample_links(now_);
@@ -101,34 +101,15 @@ class PlainEngine final : public Engine {
  private:
   static constexpr std::uint64_t kProgressRays = 4096;
 
-  template <class Visit>
-  void for_each_stage(Visit&& visit) {
-    std::apply([&](auto&... stage) { ((present(stage) ? visit(stage) : void()), ...); }, stages_.all());
-  }
-  template <class Stage>
-  bool present(const Stage&) const {
-    return true;
-  }
-  bool present(const CellLocate<Source, Wiring>&) const { return state_.has_mask_test; }
-  bool present(const MaskTest<Source, Wiring>&) const { return state_.has_mask_test; }
-
-  bool finished() const {
-    return stages_.ray_queue.exhausted() && stages_.result_queue.rays() == stages_.ray_queue.rays_taken();
-  }
-
   /// One cycle of every stage. Any order gives the same, as links judge by the state at the start of the cycle.
   bool step(Cycle now) {
     bool moved = false;
     auto all = stages_.all();
     constexpr std::size_t kCount = std::tuple_size_v<decltype(all)>;
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (step_one(now, std::get<(kForward ? I : kCount - 1 - I)>(all), moved), ...);
+      (if_present(std::get<(kForward ? I : kCount - 1 - I)>(all), [&](auto& stage) { moved |= stage.step(now); }), ...);
     }(std::make_index_sequence<kCount>{});
     return moved;
-  }
-  template <class Stage>
-  void step_one(Cycle now, Stage& stage, bool& moved) {
-    if (present(stage)) moved |= stage.step(now);
   }
 
   /// Nothing moved: goes to the next cycle in which something can.
@@ -138,7 +119,7 @@ class PlainEngine final : public Engine {
     Cycle next = now_ + 1;
     if (skip_idle_) {
       next = kNever;
-      for_each_stage([&](auto& stage) { next = earlier(next, stage.next_event(now_)); });
+      for_each_stage(stages_, [&](auto& stage) { next = earlier(next, stage.next_event(now_)); });
       next = std::max(next, now_ + 1);
     }
     now_ = std::min({next, until, last_moved_ + watchdog_});

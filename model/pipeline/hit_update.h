@@ -18,6 +18,7 @@ namespace ctu::pipeline {
 template <class Source, class Wiring>
 class HitUpdate {
  public:
+  static constexpr const char* kName = "hit_update";
   typename Wiring::template In<typename Source::Test> tested;
   typename Wiring::template Out<LeafDone> done;
 
@@ -47,7 +48,7 @@ class HitUpdate {
   }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
 
-  Account account{"hit_update", {Activity::OutputFull}};
+  Account account{kName, {Activity::OutputFull}};
 
  private:
   void finish_leaf(Cycle now, Slot slot) {

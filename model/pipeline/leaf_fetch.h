@@ -8,8 +8,9 @@ namespace ctu::pipeline {
 template <class Wiring>
 class LeafFetch : public LineFetch<LeafToken, Wiring> {
  public:
+  static constexpr const char* kName = "leaf_fetch";
   LeafFetch(const UnitConfig& config, const UnitImage& image, Contexts& contexts)
-      : LineFetch<LeafToken, Wiring>("leaf_fetch", config.leaf_cache, config.memory.line_bytes, image, contexts,
+      : LineFetch<LeafToken, Wiring>(kName, config.leaf_cache, config.memory.line_bytes, image, contexts,
                                      Place::LeafFetchHit, Place::LeafFetchMiss) {}
 };
 

@@ -21,6 +21,7 @@ namespace ctu::pipeline {
 template <class Source, class Wiring>
 class MaskTest {
  public:
+  static constexpr const char* kName = "mask_test";
   typename Wiring::template In<NodeToken> located;
   typename Wiring::template Out<NodeToken> survivors;
 
@@ -47,7 +48,7 @@ class MaskTest {
   std::uint64_t uncertain() const { return uncertain_; }
   const TableBanks& tables() const { return tables_; }
 
-  Account account{"mask_test", {Activity::OutputFull, Activity::BankConflict}};
+  Account account{kName, {Activity::OutputFull, Activity::BankConflict}};
 
  private:
   Contexts& contexts_;

@@ -18,6 +18,7 @@ namespace ctu::pipeline {
 template <class Wiring>
 class MemoryPort {
  public:
+  static constexpr const char* kName = "memory_port";
   typename Wiring::template In<MemoryRequest> requests[kClients];
   typename Wiring::template Out<MemoryResponse> answers[kClients];
 
@@ -35,7 +36,7 @@ class MemoryPort {
   std::uint64_t writes() const { return writes_; }
   const BankedMemory* banked() const { return banked_ ? &banked_memory_ : nullptr; }
 
-  Account account{"memory_port", {Activity::OutputFull, Activity::Memory}};
+  Account account{kName, {Activity::OutputFull, Activity::Memory}};
 
  private:
   template <class Memory>

@@ -8,8 +8,9 @@ namespace ctu::pipeline {
 template <class Wiring>
 class NodeFetch : public LineFetch<RefToken, Wiring> {
  public:
+  static constexpr const char* kName = "node_fetch";
   NodeFetch(const UnitConfig& config, const UnitImage& image, Contexts& contexts)
-      : LineFetch<RefToken, Wiring>("node_fetch", config.node_cache, config.memory.line_bytes, image, contexts,
+      : LineFetch<RefToken, Wiring>(kName, config.node_cache, config.memory.line_bytes, image, contexts,
                                     Place::NodeFetchHit, Place::NodeFetchMiss) {}
 };
 

@@ -9,10 +9,8 @@
 // What stands in [ ] is left out when the configuration or the image does not need it (contract 5).
 #pragma once
 
-#include <cassert>
-#include <string>
+#include <optional>
 #include <tuple>
-#include <vector>
 
 #include "model/pipeline/box_test.h"
 #include "model/pipeline/cell_locate.h"
@@ -42,7 +40,8 @@ struct UnitState {
         contexts(config_.unit.contexts),
         source(config, image, work.tester, contexts),
         log(keep_events),
-        has_mask_test(config.mask_test.design != cull::Design::None) {}
+        has_mask_test(config.mask_test.design != cull::Design::None),
+        has_spills(image.stack_bound() > config.stack.entries) {}
 
   UnitConfig config;
   const accel::Image& bytes;
@@ -52,6 +51,7 @@ struct UnitState {
   Source source;
   EventLog log;
   bool has_mask_test;
+  bool has_spills;
 };
 
 /// The stages of a unit, each in the holder that the wiring wants (SC_MODULEs for pins).
@@ -65,22 +65,24 @@ struct Stages {
         scheduler(s.config, s.contexts, s.source),
         node_fetch(s.config, s.image, s.contexts),
         box_test(s.config, s.contexts, s.source),
-        cell_locate(s.config, s.contexts, s.source),
-        mask_test(s.config, s.tester, s.contexts, s.source),
         child_sort(s.config, s.contexts, s.source),
         traversal_stack(s.config, s.contexts, s.source, s.log, s.image),
         leaf_fetch(s.config, s.image, s.contexts),
         triangle_test(s.config, s.contexts, s.source),
         hit_update(s.config, s.contexts, s.source, s.log),
         result_queue(s.config, s.contexts, s.source, s.log, s.bytes),
-        memory_port(s.config, kClients - (s.image.stack_bound() > s.config.stack.entries ? 0 : 1)) {}
+        memory_port(s.config, s.has_spills ? kClients : kClients - 1) {
+    if (!s.has_mask_test) return;
+    cell_locate.emplace(s.config, s.contexts, s.source);
+    mask_test.emplace(s.config, s.tester, s.contexts, s.source);
+  }
 
   Holder<RayQueue<Source, Wiring>> ray_queue;
   Holder<Scheduler<Source, Wiring>> scheduler;
   Holder<NodeFetch<Wiring>> node_fetch;
   Holder<BoxTest<Source, Wiring>> box_test;
-  Holder<CellLocate<Source, Wiring>> cell_locate;
-  Holder<MaskTest<Source, Wiring>> mask_test;
+  std::optional<Holder<CellLocate<Source, Wiring>>> cell_locate;
+  std::optional<Holder<MaskTest<Source, Wiring>>> mask_test;
   Holder<ChildSort<Source, Wiring>> child_sort;
   Holder<TraversalStack<Source, Wiring>> traversal_stack;
   Holder<LeafFetch<Wiring>> leaf_fetch;
@@ -89,10 +91,38 @@ struct Stages {
   Holder<ResultQueue<Source, Wiring>> result_queue;
   Holder<MemoryPort<Wiring>> memory_port;
 
+  /// Every stage in its holder, those that may be left out in an optional.
   auto all() {
     return std::tie(ray_queue, scheduler, node_fetch, box_test, cell_locate, mask_test, child_sort, traversal_stack,
                     leaf_fetch, triangle_test, hit_update, result_queue, memory_port);
   }
 };
+
+/// Calls `visit(holder)` if the holder is there.
+template <class Holder, class Visit>
+void if_present(Holder& holder, Visit&& visit) {
+  visit(holder);
+}
+template <class Holder, class Visit>
+void if_present(std::optional<Holder>& holder, Visit&& visit) {
+  if (holder) visit(*holder);
+}
+
+/// Calls `visit(stage)` for every stage that is there.
+template <class Source, class Wiring, class Visit>
+void for_each_stage(Stages<Source, Wiring>& stages, Visit&& visit) {
+  std::apply(
+      [&](auto&... holder) {
+        (if_present(holder, [&](auto& present) { visit(Wiring::stage(present)); }), ...);
+      },
+      stages.all());
+}
+
+/// Every ray of the feed has been returned and checked.
+template <class Source, class Wiring>
+bool all_returned(Stages<Source, Wiring>& stages) {
+  const auto& ray_queue = Wiring::stage(stages.ray_queue);
+  return ray_queue.exhausted() && Wiring::stage(stages.result_queue).rays() == ray_queue.rays_taken();
+}
 
 }  // namespace ctu::pipeline

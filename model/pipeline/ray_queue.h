@@ -22,6 +22,7 @@ namespace ctu::pipeline {
 template <class Source, class Wiring>
 class RayQueue {
  public:
+  static constexpr const char* kName = "ray_queue";
   typename Wiring::template In<SlotToken> freed;
   typename Wiring::template Out<RefToken> to_scheduler;
   typename Wiring::template Out<SlotToken> to_result;
@@ -67,7 +68,7 @@ class RayQueue {
   bool exhausted() const { return block_ == nullptr; }
   std::uint64_t rays_taken() const { return rays_taken_; }
 
-  Account account{"ray_queue", {Activity::OutputFull, Activity::NoContext}};
+  Account account{kName, {Activity::OutputFull, Activity::NoContext}};
 
  private:
   struct Prepared {

@@ -31,7 +31,7 @@ std::vector<Cause> ray_cycles(const Contexts& contexts) {
   return causes;
 }
 
-std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& image, const TableBanks& tables,
+std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& image, const TableBanks* tables,
                                   int deepest_stack, int most_contexts, int most_node_mshrs, int most_leaf_mshrs) {
   std::vector<std::string> lines;
   if (config.mask_test.design == cull::Design::None)
@@ -44,12 +44,12 @@ std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& ima
   if (spare_entries > 0)
     lines.push_back(fmt::format("could be left out: {} of {} stack entries, never used; {} bits", spare_entries,
                                 config.stack.entries, spare_entries * kStackEntryBytes * 8 * config.unit.contexts));
-  if (tables.rows() > 0) {
-    const std::uint64_t rows = tables.rows() * static_cast<std::uint64_t>(tables.tables());
-    const std::uint64_t unused = rows - tables.rows_used();
+  if (tables != nullptr && tables->rows() > 0) {
+    const std::uint64_t rows = tables->rows() * static_cast<std::uint64_t>(tables->tables());
+    const std::uint64_t unused = rows - tables->rows_used();
     if (unused > 0)
       lines.push_back(fmt::format("could be left out: {} of {} table rows, never read; {} of {} bits", unused, rows,
-                                  unused * tables.row_bits(), tables.bits()));
+                                  unused * tables->row_bits(), tables->bits()));
   }
   if (config.leaf_cache.bytes == 0) lines.push_back("tags and data of leaf_cache: configured away");
   if (config.node_cache.bytes == 0) lines.push_back("tags and data of node_cache: configured away");

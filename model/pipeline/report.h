@@ -25,8 +25,8 @@ class CounterList {
   std::vector<Counter> counters_;
 };
 
-/// Sentences of what this run did not need (contract 5).
-std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& image, const TableBanks& tables,
+/// Sentences of what this run did not need (contract 5). `tables` is null when there is no mask test.
+std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& image, const TableBanks* tables,
                                   int deepest_stack, int most_contexts, int most_node_mshrs, int most_leaf_mshrs);
 
 std::vector<Cause> ray_cycles(const Contexts& contexts);
@@ -36,7 +36,6 @@ template <class Source, class Wiring>
 UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages, Cycle end) {
   auto& result_queue = Wiring::stage(stages.result_queue);
   auto& box_test = Wiring::stage(stages.box_test);
-  auto& mask_test = Wiring::stage(stages.mask_test);
   auto& triangle_test = Wiring::stage(stages.triangle_test);
   auto& stack = Wiring::stage(stages.traversal_stack);
   auto& memory_port = Wiring::stage(stages.memory_port);
@@ -54,19 +53,8 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
                    .triangle_tests = triangle_test.triangles(),
                    .leaf_visits = triangle_test.leaves(),
                    .box_hits = box_test.box_hits(),
-                   .culled = mask_test.culled(),
-                   .uncertain = mask_test.uncertain(),
                    .dropped = pushed.dropped};
-  std::apply(
-      [&](auto&... holder) {
-        const auto close = [&](auto& stage) {
-          const bool absent = !state.has_mask_test && (stage.account.stage() == "cell_locate" ||
-                                                       stage.account.stage() == "mask_test");
-          if (!absent) result.stages.push_back(stage.account.close(end));
-        };
-        (close(Wiring::stage(holder)), ...);
-      },
-      stages.all());
+  for_each_stage(stages, [&](auto& stage) { result.stages.push_back(stage.account.close(end)); });
 
   CounterList counters;
   counters.add("contexts.occupied_cycles", "context cycles", "sum over cycles of occupied contexts",
@@ -87,9 +75,14 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
   counters.add("memory.stack_requests", "lines", "lines written and read for spilled stack entries",
                memory_port.requests_of(Client::Stack));
   if (memory_port.banked() != nullptr) counters.add_banked(memory_port.banked()->counters());
-  if (state.has_mask_test) {
+  const TableBanks* on_chip = nullptr;
+  if (stages.mask_test) {
+    auto& mask_test = Wiring::stage(*stages.mask_test);
+    result.counts.culled = mask_test.culled();
+    result.counts.uncertain = mask_test.uncertain();
     const TableBanks& tables = mask_test.tables();
-    counters.add("cell_locate.lanes", "lanes", "lanes located", Wiring::stage(stages.cell_locate).lanes());
+    on_chip = &tables;
+    counters.add("cell_locate.lanes", "lanes", "lanes located", Wiring::stage(*stages.cell_locate).lanes());
     counters.add("mask_test.reads", "reads", "table reads, those of one row in one cycle once", tables.reads());
     counters.add("mask_test.shared_reads", "reads", "reads saved because another lane read the same row", tables.shared_reads());
     counters.add("mask_test.table_bits", "bits", "tables on chip", tables.bits());
@@ -109,7 +102,7 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
 
   result.ray_cycles = ray_cycles(state.contexts);
   result.ray_latency_sum = state.contexts.latency_sum();
-  result.left_out = left_out(state.config, state.image, mask_test.tables(), pushed.deepest,
+  result.left_out = left_out(state.config, state.image, on_chip, pushed.deepest,
                              state.contexts.most_occupied(), node_fetch.mshrs().most_in_use(),
                              leaf_fetch.mshrs().most_in_use());
   result.event_log_hash = state.log.timed_hash();

@@ -20,6 +20,7 @@ namespace ctu::pipeline {
 template <class Source, class Wiring>
 class ResultQueue {
  public:
+  static constexpr const char* kName = "result_queue";
   typename Wiring::template In<SlotToken> from_stack, from_rays;
   typename Wiring::template Out<SlotToken> freed;
 
@@ -57,7 +58,7 @@ class ResultQueue {
   std::uint64_t wrong_hits() const { return wrong_hits_; }
   const std::vector<WrongHit>& first_wrong() const { return first_wrong_; }
 
-  Account account{"result_queue", {Activity::OutputFull, Activity::Interval}};
+  Account account{kName, {Activity::OutputFull, Activity::Interval}};
 
  private:
   static constexpr std::size_t kWrongHitsKept = 16;

@@ -37,6 +37,7 @@ class ArrivalQueue {
 template <class Source, class Wiring>
 class Scheduler {
  public:
+  static constexpr const char* kName = "scheduler";
   typename Wiring::template In<RefToken> from_stack, from_rays;
   typename Wiring::template Out<RefToken> to_node_fetch, to_leaf_fetch;
 
@@ -56,7 +57,7 @@ class Scheduler {
   std::uint64_t issued() const { return issued_; }
   std::uint64_t most_ready() const { return most_ready_; }
 
-  Account account{"scheduler", {Activity::OutputFull}};
+  Account account{kName, {Activity::OutputFull}};
 
  private:
   template <class In>

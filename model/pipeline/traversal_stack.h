@@ -32,6 +32,7 @@ inline constexpr int kStackEntryBytes = 8;  ///< reference and t0
 template <class Source, class Wiring>
 class TraversalStack {
  public:
+  static constexpr const char* kName = "traversal_stack";
   typename Wiring::template In<NodeToken> sorted;
   typename Wiring::template In<LeafDone> leaf_done;
   typename Wiring::template In<MemoryResponse> refills;
@@ -75,11 +76,9 @@ class TraversalStack {
   }
   Cycle next_event(Cycle) const { return kNever; }
 
-  /// Whether the unit holds the logic and the memory client of spills: no, if no ray of this image can need them.
-  bool can_spill() const { return can_spill_; }
   const Counters& counters() const { return counters_; }
 
-  Account account{"traversal_stack", {Activity::OutputFull, Activity::Spill}};
+  Account account{kName, {Activity::OutputFull, Activity::Spill}};
 
  private:
   enum class Job : std::uint8_t { None, Push, Pop, Finish };

@@ -17,6 +17,7 @@ namespace ctu::pipeline {
 template <class Source, class Wiring>
 class TriangleTest {
  public:
+  static constexpr const char* kName = "triangle_test";
   typename Wiring::template In<LeafToken> leaf;
   typename Wiring::template Out<typename Source::Test> tested;
 
@@ -53,7 +54,7 @@ class TriangleTest {
   std::uint64_t leaves() const { return leaves_; }
   std::uint64_t triangles() const { return triangles_; }
 
-  Account account{"triangle_test", {Activity::OutputFull, Activity::Interval}};
+  Account account{kName, {Activity::OutputFull, Activity::Interval}};
 
  private:
   void take_leaf(Cycle now) {
