@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,14 +62,12 @@ void build_ours(benchmark::State& state, const Fixture& fixture, int threads) {
 }
 
 void build_embree(benchmark::State& state, const Fixture& fixture) {
+  std::optional<ctu::test::EmbreeScene> scene;
   for (auto _ : state) {
     state.PauseTiming();
-    ctu::test::EmbreeScene scene(fixture.scene.mesh, false);
+    scene.emplace(fixture.scene.mesh, false);
     state.ResumeTiming();
-    scene.commit();
-    state.PauseTiming();
-    scene = ctu::test::EmbreeScene(fixture.scene.mesh, false);
-    state.ResumeTiming();
+    scene->commit();
   }
 }
 
