@@ -59,7 +59,6 @@ PreparedRay prepare_ray(const Ray& ray) {
   prepared.kz = static_cast<std::uint8_t>(kz);
   prepared.sx = numeric::div<Round::Nearest>(d[kx], d[kz]);
   prepared.sy = numeric::div<Round::Nearest>(d[ky], d[kz]);
-  prepared.sz = numeric::div<Round::Nearest>(1.0f, d[kz]);
   return prepared;
 }
 

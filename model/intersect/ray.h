@@ -47,7 +47,7 @@ struct PreparedRay {
   std::uint8_t zero_axes = 0;           ///< bit a: direction[a] is +0 or -0
   std::uint8_t negative_axes = 0;       ///< bit a: direction[a] < 0
   std::uint8_t kx = 0, ky = 1, kz = 2;  ///< axes after the permutation; kz has the largest |d|
-  float sx = 0, sy = 0, sz = 0;         ///< shear constants dx/dz, dy/dz, 1/dz, rounded to nearest
+  float sx = 0, sy = 0;                 ///< shear constants dx/dz, dy/dz, rounded to nearest
   bool valid = false;
 };
 PreparedRay prepare_ray(const Ray& ray);

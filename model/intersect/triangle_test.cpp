@@ -1,6 +1,10 @@
 #include "model/intersect/triangle_test.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace ctu::intersect {
@@ -34,7 +38,7 @@ struct Sheared {
   double x, y, z;  ///< z is the unsheared, unscaled distance along kz
 };
 
-Sheared shear(const PreparedRay& ray, const Vec3& vertex) {
+Sheared shear_wide(const PreparedRay& ray, const Vec3& vertex) {
   const auto from_origin = [&](int axis) {
     return round24(static_cast<double>(vertex[axis]) - static_cast<double>(ray.ray.origin[axis]));
   };
@@ -43,10 +47,41 @@ Sheared shear(const PreparedRay& ray, const Vec3& vertex) {
           round24(from_origin(ray.ky) - round24(static_cast<double>(ray.sy) * z)), z};
 }
 
+/// The shear in binary32, which is the same as long as no product underflows and nothing overflows: `same` is cleared
+/// where that may happen.
+class NarrowShear {
+ public:
+  explicit NarrowShear(const PreparedRay& ray)
+      : kx_(ray.kx), ky_(ray.ky), kz_(ray.kz), sx_(ray.sx), sy_(ray.sy), origin_(coordinates(ray.ray.origin)) {
+    same = zero_or_at_least(sx_, 0x1p-40f) & zero_or_at_least(sy_, 0x1p-40f);
+  }
+
+  Sheared operator()(const Vec3& vertex) {
+    const Coordinates v = coordinates(vertex);
+    const float x = v[kx_] - origin_[kx_], y = v[ky_] - origin_[ky_], z = v[kz_] - origin_[kz_];
+    same &= zero_or_at_least(z, 0x1p-60f) & (std::max({std::fabs(x), std::fabs(y), std::fabs(z)}) < 0x1p60f);
+    return {x - sx_ * z, y - sy_ * z, z};
+  }
+
+  bool same;
+
+ private:
+  using Coordinates = std::array<float, 3>;
+  static Coordinates coordinates(const Vec3& v) { return {v.x, v.y, v.z}; }
+  static bool zero_or_at_least(float x, float least) { return (x == 0) | (std::fabs(x) >= least); }
+
+  std::size_t kx_, ky_, kz_;
+  float sx_, sy_;
+  Coordinates origin_;
+};
+
 }  // namespace
 
 TriangleResult triangle_test(const PreparedRay& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2, float tmax) {
-  const Sheared a = shear(ray, v0), b = shear(ray, v1), c = shear(ray, v2);
+  NarrowShear shear(ray);
+  Sheared a = shear(v0), b = shear(v1), c = shear(v2);
+  if (!shear.same) [[unlikely]]
+    a = shear_wide(ray, v0), b = shear_wide(ray, v1), c = shear_wide(ray, v2);
   const double cxby = c.x * b.y, cybx = c.y * b.x;
   const double axcy = a.x * c.y, aycx = a.y * c.x;
   const double bxay = b.x * a.y, byax = b.y * a.x;

@@ -13,6 +13,11 @@
 //   t       = T / R(det d[kz])            u = V / det       v = W / det   one rounding, to binary32 proper
 // The paper's third shear constant 1/d[kz] is not needed: dividing by det d[kz] costs one product instead of three
 // and does not overflow for subnormal directions.
+//
+// Limit: x and y are rounded at the size of v - origin, so a ray that passes an edge within a few places of that size
+// may be given to the edge's other triangle. In a closed mesh nothing leaks by it; but the box of that other triangle
+// may rightly be missed. Measured behind each triangle's own box: 0 of 150,000 aimed rays leak from origins further
+// than 1e-5 of the mesh's size from its surface, 1 of 1,000 aimed at lattice edges from closer than that.
 #pragma once
 
 #include "model/intersect/ray.h"

@@ -49,17 +49,21 @@ inline Float4 canonical(Float4 x) {
   return from_lane_bits(x == x ? lane_bits(x) : splat(static_cast<std::int32_t>(kCanonicalNan)));
 }
 
-/// As round.h's neighbours, for the lanes of `where`. A zero steps from the zero of the step's own sign, which makes
-/// the step an integer one: away from zero when the sign agrees with the direction, else towards it.
+typedef std::uint32_t Bits4 __attribute__((vector_size(16)));  // steps past a NaN's bits must wrap
+
+/// As round.h's neighbours, for the lanes of `where`. A zero counts as the one from which the step leads away, so that
+/// every step is one place of the bits.
 inline Float4 step_down(Float4 x, Mask4 where) {
   const Mask4 from = x == 0 ? splat(kSignBit) : lane_bits(x);
-  const Mask4 step = from < 0 ? splat(1) : splat(-1);
-  return from_lane_bits(where ? from + step : lane_bits(x));
+  const Mask4 place = from < 0 ? splat(1) : splat(-1);
+  const Bits4 stepped = std::bit_cast<Bits4>(from) + std::bit_cast<Bits4>(place);
+  return from_lane_bits(where ? std::bit_cast<Mask4>(stepped) : lane_bits(x));
 }
 inline Float4 step_up(Float4 x, Mask4 where) {
   const Mask4 from = x == 0 ? splat(0) : lane_bits(x);
-  const Mask4 step = from < 0 ? splat(-1) : splat(1);
-  return from_lane_bits(where ? from + step : lane_bits(x));
+  const Mask4 place = from < 0 ? splat(-1) : splat(1);
+  const Bits4 stepped = std::bit_cast<Bits4>(from) + std::bit_cast<Bits4>(place);
+  return from_lane_bits(where ? std::bit_cast<Mask4>(stepped) : lane_bits(x));
 }
 
 typedef double Wide4 __attribute__((vector_size(32)));

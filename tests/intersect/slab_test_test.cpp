@@ -147,7 +147,8 @@ void expect_same_outer_bits(const SlabTimes& outer, const SlabTimes& full, const
   ASSERT_EQ(std::memcmp(outer.t1, full.t1, sizeof full.t1), 0) << show(c, 0) << show(c, 1) << show(c, 2) << show(c, 3);
 }
 
-template <class Full, class Outer> void expect_form_gives_the_defined_bits(Full full_form, Outer outer_form) {
+template <class Full, class Outer>
+void expect_form_gives_the_defined_bits(Full full_form, Outer outer_form) {
   SCOPED_TRACE(oracle::seed_note());
   HostileBoxes source(oracle::test_seed() + 1);
   for (int i = 0; i < kBitCases; ++i) {

@@ -78,6 +78,9 @@ void expect_stated_bits(double smallest, double largest, int cases) {
 }
 
 TEST(TriangleTest, gives_the_bits_of_its_statement_at_ordinary_sizes) { expect_stated_bits(-3, 3, 15'000); }
+TEST(TriangleTest, gives_the_bits_of_its_statement_where_binary32_products_begin_to_underflow) {
+  expect_stated_bits(-28, -10, 15'000);
+}
 TEST(TriangleTest, gives_the_bits_of_its_statement_among_subnormals) { expect_stated_bits(-44, -36, 15'000); }
 TEST(TriangleTest, gives_the_bits_of_its_statement_near_the_largest_numbers) { expect_stated_bits(30, 34, 15'000); }
 
