@@ -11,29 +11,42 @@
 
 namespace ctu::cull {
 
-template <int R> inline constexpr int kWords = words_per_mask(R);
-template <int R> using MaskWords = std::array<std::uint64_t, kWords<R>>;
+template <int R>
+inline constexpr int kWords = words_per_mask(R);
+template <int R>
+using MaskWords = std::array<std::uint64_t, kWords<R>>;
 
 /// Calls `body(std::integral_constant<int, R>)` for the given resolution.
-template <class Body> decltype(auto) with_resolution(int resolution, Body&& body) {
+template <class Body>
+decltype(auto) with_resolution(int resolution, Body&& body) {
   switch (resolution) {
-    case 2: return body(std::integral_constant<int, 2>{});
-    case 3: return body(std::integral_constant<int, 3>{});
-    case 5: return body(std::integral_constant<int, 5>{});
-    case 6: return body(std::integral_constant<int, 6>{});
-    case 7: return body(std::integral_constant<int, 7>{});
-    case 8: return body(std::integral_constant<int, 8>{});
-    default: assert(resolution == 4); return body(std::integral_constant<int, 4>{});
+    case 2:
+      return body(std::integral_constant<int, 2>{});
+    case 3:
+      return body(std::integral_constant<int, 3>{});
+    case 5:
+      return body(std::integral_constant<int, 5>{});
+    case 6:
+      return body(std::integral_constant<int, 6>{});
+    case 7:
+      return body(std::integral_constant<int, 7>{});
+    case 8:
+      return body(std::integral_constant<int, 8>{});
+    default:
+      assert(resolution == 4);
+      return body(std::integral_constant<int, 4>{});
   }
 }
 
 /// For each axis and index range, the cells of the grid whose index on that axis lies in the range. The AND of three
 /// is a box of cells: the paper's six-dimensional filling-pattern table (3.2.1), factored.
-template <int R> struct RangeMasks {
+template <int R>
+struct RangeMasks {
   MaskWords<R> bits[3][R][R];  ///< [axis][first][last]
 };
 
-template <int R> constexpr RangeMasks<R> make_range_masks() {
+template <int R>
+constexpr RangeMasks<R> make_range_masks() {
   RangeMasks<R> masks{};
   for (int cell = 0; cell < R * R * R; ++cell) {
     const int index[3] = {cell % R, cell / R % R, cell / (R * R)};
@@ -44,14 +57,16 @@ template <int R> constexpr RangeMasks<R> make_range_masks() {
   }
   return masks;
 }
-template <int R> inline const RangeMasks<R> kRangeMasks = make_range_masks<R>();
+template <int R>
+inline const RangeMasks<R> kRangeMasks = make_range_masks<R>();
 
 /// Indices first..last on each axis; empty when first > last somewhere.
 struct CellRange {
   int first[3], last[3];
 };
 
-template <int R> MaskWords<R> box_of_cells(const CellRange& range) {
+template <int R>
+MaskWords<R> box_of_cells(const CellRange& range) {
   const auto& x = kRangeMasks<R>.bits[0][range.first[0]][range.last[0]];
   const auto& y = kRangeMasks<R>.bits[1][range.first[1]][range.last[1]];
   const auto& z = kRangeMasks<R>.bits[2][range.first[2]][range.last[2]];
@@ -61,24 +76,28 @@ template <int R> MaskWords<R> box_of_cells(const CellRange& range) {
 }
 
 /// Whether `mask` holds every bit of `cells`.
-template <int R> bool holds(const std::uint64_t* mask, const MaskWords<R>& cells) {
+template <int R>
+bool holds(const std::uint64_t* mask, const MaskWords<R>& cells) {
   std::uint64_t missing = 0;
   for (int w = 0; w < kWords<R>; ++w) missing |= cells[w] & ~mask[w];
   return missing == 0;
 }
 
 /// Bit x of a row of R cells becomes the R bits R*x .. R*x + R-1.
-template <int R> struct Stretch {
+template <int R>
+struct Stretch {
   std::uint64_t of[1 << R];
 };
-template <int R> constexpr Stretch<R> make_stretch() {
+template <int R>
+constexpr Stretch<R> make_stretch() {
   Stretch<R> table{};
   for (unsigned row = 0; row < (1u << R); ++row)
     for (int i = 0; i < R; ++i)
       if ((row >> i & 1) != 0) table.of[row] |= ((std::uint64_t{1} << R) - 1) << (R * i);
   return table;
 }
-template <int R> inline constexpr Stretch<R> kStretch = make_stretch<R>();
+template <int R>
+inline constexpr Stretch<R> kStretch = make_stretch<R>();
 
 /// cell (x, y, z) = xy(x, y) AND yz(y, z) AND xz(x, z). A pair's matrix has bit i + R*j for cell i of its first axis
 /// and j of its second. By Helly's theorem on the line, sets of cells that are defined by three intervals of ray

@@ -25,12 +25,12 @@ struct Cell {
   bool certain;  ///< the same for every value of the range
 };
 
-/// The inner planes of one axis in the order of ray time (or of position, on an axis without motion).
+/// The inner planes of one axis in the order of ray time (or of position, on an axis without motion); `Groups` of four.
+template <int Groups>
 class Planes {
  public:
-  Planes(const LerpWeights& weights, int resolution, Range first, Range second)
-      : inner_((1u << (resolution - 1)) - 1), groups_(plane_groups(resolution)) {
-    for (int g = 0; g < groups_; ++g) {
+  Planes(const LerpWeights& weights, int resolution, Range first, Range second) : inner_((1u << (resolution - 1)) - 1) {
+    for (int g = 0; g < Groups; ++g) {
       down_[g] = lerp_planes<Round::Down>(weights, g, first.down, second.down);
       up_[g] = lerp_planes<Round::Up>(weights, g, first.up, second.up);
     }
@@ -42,7 +42,7 @@ class Planes {
     const numeric::Mask4 passed_when_met = numeric::splat(descending ? 0 : -1);
     const Float4 down = numeric::splat(value.down), up = numeric::splat(value.up);
     unsigned passed = 0, ahead = 0;
-    for (int g = 0; g < groups_; ++g) {
+    for (int g = 0; g < Groups; ++g) {
       passed |= set_lanes((up_[g] < down) | ((up_[g] == down) & passed_when_met)) << (4 * g);
       ahead |= set_lanes((down_[g] > up) | ((down_[g] == up) & ~passed_when_met)) << (4 * g);
     }
@@ -53,14 +53,12 @@ class Planes {
 
  private:
   unsigned inner_;
-  int groups_;
-  Float4 down_[kPlaneGroups], up_[kPlaneGroups];
+  Float4 down_[Groups], up_[Groups];
 };
 
-}  // namespace
-
-CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTimes& times,
-                    const intersect::Box4& boxes, int lane, int ray_resolution) {
+template <int Groups>
+CellKey locate(const intersect::PreparedRay& ray, const intersect::SlabTimes& times, const intersect::Box4& boxes,
+               int lane, int ray_resolution) {
   Range entry{times.t0[lane], times.t0[lane]}, exit{times.t1[lane], times.t1[lane]};
   for (int axis = 0; axis < 3; ++axis) {
     entry.up = times.near_up[axis][lane] > entry.up ? times.near_up[axis][lane] : entry.up;
@@ -76,10 +74,10 @@ CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTime
     Cell begin, end;
     if ((ray.zero_axes >> axis & 1) != 0) {
       const float position = ray.ray.origin[axis];
-      begin = end = Planes(weights, ray_resolution, {lo, lo}, {hi, hi}).cell_at({position, position}, false);
+      begin = end = Planes<Groups>(weights, ray_resolution, {lo, lo}, {hi, hi}).cell_at({position, position}, false);
     } else {
-      const Planes planes(weights, ray_resolution, {times.near_down[axis][lane], times.near_up[axis][lane]},
-                          {times.far_down[axis][lane], times.far_up[axis][lane]});
+      const Planes<Groups> planes(weights, ray_resolution, {times.near_down[axis][lane], times.near_up[axis][lane]},
+                                  {times.far_down[axis][lane], times.far_up[axis][lane]});
       const bool descending = (ray.negative_axes >> axis & 1) != 0;
       begin = planes.cell_at(entry, descending);
       end = planes.cell_at(exit, descending);
@@ -89,6 +87,22 @@ CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTime
     if (!begin.certain || !end.certain) key.packed |= CellKey::kUncertain;
   }
   return key;
+}
+
+}  // namespace
+
+CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTimes& times, const intersect::Box4& boxes,
+                    int lane, int ray_resolution) {
+  switch (plane_groups(ray_resolution)) {
+    case 1:
+      return locate<1>(ray, times, boxes, lane, ray_resolution);
+    case 2:
+      return locate<2>(ray, times, boxes, lane, ray_resolution);
+    case 3:
+      return locate<3>(ray, times, boxes, lane, ray_resolution);
+    default:
+      return locate<4>(ray, times, boxes, lane, ray_resolution);
+  }
 }
 
 }  // namespace ctu::cull

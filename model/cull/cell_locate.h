@@ -20,7 +20,7 @@ struct CellKey {
 
 /// For a lane that the slab test hit: the half-open (floor) cells of the points at t0 and t1 in an
 /// R_ray^3 grid over the box, clamped to the grid.
-CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTimes& times,
-                    const intersect::Box4& boxes, int lane, int ray_resolution);
+CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTimes& times, const intersect::Box4& boxes,
+                    int lane, int ray_resolution);
 
 }  // namespace ctu::cull

@@ -17,14 +17,16 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// When the ray is in each cell of one axis, within [t0, t1]; cells in the order of ray time. A cell that it is never
 /// in has [+inf, -inf], which meets nothing: the others begin at tmin or later, which is finite. So do the elements
 /// past the last cell.
-template <int R> struct CellTimes {
+template <int R>
+struct CellTimes {
   static constexpr int kGroups = (R + 3) / 4;
   Float4 enter[kGroups], leave[kGroups];
   bool descending = false;  ///< ray order is cell order reversed
 };
 
 /// Elements i..i+3 of the borders 0..R: face, inner planes, face.
-template <int R> Float4 borders_from(const Float4* planes, float first, float second, int i) {
+template <int R>
+Float4 borders_from(const Float4* planes, float first, float second, int i) {
   Float4 out;
   for (int e = 0; e < 4; ++e) {
     const int k = i + e;
@@ -72,10 +74,12 @@ CellTimes<R> cell_times(const intersect::PreparedRay& ray, const intersect::Slab
 }
 
 /// Reverses the R bits of a row, or leaves them.
-template <int R> struct RowOrder {
+template <int R>
+struct RowOrder {
   std::uint8_t of[2][1 << R];
 };
-template <int R> constexpr RowOrder<R> make_row_order() {
+template <int R>
+constexpr RowOrder<R> make_row_order() {
   RowOrder<R> order{};
   for (unsigned row = 0; row < (1u << R); ++row) {
     order.of[0][row] = static_cast<std::uint8_t>(row);
@@ -84,10 +88,12 @@ template <int R> constexpr RowOrder<R> make_row_order() {
   }
   return order;
 }
-template <int R> inline constexpr RowOrder<R> kRowOrder = make_row_order<R>();
+template <int R>
+inline constexpr RowOrder<R> kRowOrder = make_row_order<R>();
 
 /// Bit i + R*j: cell i of `a` and cell j of `b` share a time.
-template <int R> std::uint64_t meeting_cells(const CellTimes<R>& a, const CellTimes<R>& b) {
+template <int R>
+std::uint64_t meeting_cells(const CellTimes<R>& a, const CellTimes<R>& b) {
   const auto& order = kRowOrder<R>.of[a.descending];
   std::uint64_t bits = 0;
   for (int j = 0; j < R; ++j) {

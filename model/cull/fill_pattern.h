@@ -36,8 +36,8 @@ struct BorderPlace {
   int at_or_below;  ///< its floor cell
 };
 
-/// `near` is the child's border in the ancestor's grid coordinates, to within 2^-46: both its faces' coordinates are
-/// off by at most R 2^-51, and the sum has no cancellation.
+/// `near` is the child's border in the ancestor's grid coordinates, from 0 to R, to within 2^-46: both its faces'
+/// coordinates are off by at most R 2^-51, and the sum has no cancellation.
 template <int R>
 BorderPlace place_border(double near, int x, float child_lo, float child_hi, float lo, float hi) {
   const int j = static_cast<int>(near + 0.5);
@@ -53,11 +53,13 @@ BorderPlace place_border(double near, int x, float child_lo, float child_hi, flo
 }
 
 /// For each cell of the child on one axis, the ancestor's cells that it fills.
-template <int R> struct AxisFill {
+template <int R>
+struct AxisFill {
   int first[R], last[R];
 };
 
-template <int R> AxisFill<R> make_axis_fill(const BoxGrid<R>& grid, const Bounds& box, const Bounds& child, int axis) {
+template <int R>
+AxisFill<R> make_axis_fill(const BoxGrid<R>& grid, const Bounds& box, const Bounds& child, int axis) {
   AxisFill<R> fill;
   const float lo = box.lower[axis], hi = box.upper[axis], child_lo = child.lower[axis], child_hi = child.upper[axis];
   const bool same = lo == child_lo && hi == child_hi, flat = (grid.flat_axes >> axis & 1) != 0;
@@ -70,7 +72,7 @@ template <int R> AxisFill<R> make_axis_fill(const BoxGrid<R>& grid, const Bounds
   }
   const double from = grid.to_grid(axis, child_lo), to = grid.to_grid(axis, child_hi);
   for (int x = 0; x <= R; ++x) {
-    const double near = ((R - x) * from + x * to) / R;
+    const double near = std::clamp(((R - x) * from + x * to) / R, 0.0, static_cast<double>(R));
     const BorderPlace place = place_border<R>(near, x, child_lo, child_hi, lo, hi);
     if (x < R) fill.first[x] = x == 0 ? place.below : place.at_or_below;
     if (x > 0) fill.last[x - 1] = x == R ? place.at_or_below : place.below;

@@ -17,7 +17,8 @@ namespace ctu::cull {
 namespace {
 
 /// Borders 0..R of one axis in the order the ray meets them, and the walk's place among the inner ones.
-template <int R> struct AxisWalk {
+template <int R>
+struct AxisWalk {
   double earliest[R + 1], latest[R + 1];
   int first = 0, last = 0;  ///< cells, in ray order, that the ray may be in
   bool descending = false;

@@ -15,13 +15,15 @@ struct MaskTester::Tables {
 
 namespace {
 
-template <int R> bool share_a_cell(const std::uint64_t* ray_mask, const std::uint64_t* object_mask) {
+template <int R>
+bool share_a_cell(const std::uint64_t* ray_mask, const std::uint64_t* object_mask) {
   std::uint64_t both = 0;
   for (int w = 0; w < kWords<R>; ++w) both |= ray_mask[w] & object_mask[w];
   return both != 0;
 }
 
-template <class Body> void for_each_lane(unsigned lanes, Body&& body) {
+template <class Body>
+void for_each_lane(unsigned lanes, Body&& body) {
   for (int lane = 0; lane < intersect::kLanes; ++lane)
     if ((lanes >> lane & 1) != 0) body(lane);
 }
@@ -88,9 +90,8 @@ MaskTestResult MaskTester::test(const intersect::PreparedRay& ray, const interse
     constexpr int R = r();
     switch (tables.design) {
       case Design::Ideal:
-        return test_by_times<R>(times.hit, object_masks, [&](int lane, std::uint64_t* words) {
-          ideal_mask(ray, times, boxes, lane, R, words);
-        });
+        return test_by_times<R>(times.hit, object_masks,
+                                [&](int lane, std::uint64_t* words) { ideal_mask(ray, times, boxes, lane, R, words); });
       case Design::Comparators:
         return test_by_times<R>(times.hit, object_masks, [&](int lane, std::uint64_t* words) {
           comparator_mask(ray, times, boxes, lane, R, words);
@@ -105,7 +106,8 @@ MaskTestResult MaskTester::test(const intersect::PreparedRay& ray, const interse
           return words.data();
         });
       }
-      case Design::None: break;
+      case Design::None:
+        break;
     }
     MaskTestResult all;
     all.pass = times.hit;

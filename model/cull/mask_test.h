@@ -16,8 +16,8 @@ namespace ctu::cull {
 
 /// The answers for the four lanes of a node.
 struct MaskTestResult {
-  std::uint8_t pass = 0;        ///< bit lane: hit by the slab test and not culled
-  std::uint8_t uncertain = 0;   ///< bit lane: passed because rounding left two candidate cells
+  std::uint8_t pass = 0;                      ///< bit lane: hit by the slab test and not culled
+  std::uint8_t uncertain = 0;                 ///< bit lane: passed because rounding left two candidate cells
   std::uint32_t key[intersect::kLanes] = {};  ///< packed CellKey of hit lanes, for designs that read tables
 };
 

@@ -36,19 +36,22 @@ Bounds bounds_of(const accel::Bvh4& bvh, Slot slot) {
 ChildRef child_of(const accel::Bvh4& bvh, Slot slot) { return bvh.nodes[slot.node].child[slot.lane]; }
 
 std::uint64_t* mask_of(ObjectMasks& masks, Slot slot) {
-  const std::size_t child = static_cast<std::size_t>(slot.node) * intersect::kLanes + static_cast<std::size_t>(slot.lane);
+  const std::size_t child =
+      static_cast<std::size_t>(slot.node) * intersect::kLanes + static_cast<std::size_t>(slot.lane);
   return masks.bits.data() + child * static_cast<std::size_t>(masks.words);
 }
 
 /// A box on the way down, and the bits to set for it.
-template <int R> struct OpenBox {
+template <int R>
+struct OpenBox {
   Bounds bounds;
   BoxGrid<R> grid;
   std::uint64_t* mask;
 };
 
 /// Walks one subtree.
-template <int R> class Walk {
+template <int R>
+class Walk {
  public:
   Walk(const accel::Bvh4& bvh, int levels, ObjectMasks& masks) : bvh_(bvh), levels_(levels), masks_(masks) {}
 
@@ -158,7 +161,8 @@ Cut cut_tree(const accel::Bvh4& bvh) {
   return cut;
 }
 
-template <int R> class Builder {
+template <int R>
+class Builder {
  public:
   Builder(const accel::Bvh4& bvh, int levels, ObjectMasks& masks)
       : bvh_(bvh), levels_(levels), masks_(masks), cut_(cut_tree(bvh)), aside_(cut_.tasks.size()) {}

@@ -29,8 +29,8 @@ inline constexpr int kMaxRayResolution = 16;
 inline constexpr int kUnlimitedLevels = 0, kMaxLevels = 64;  // the paper measures L = 1..5
 
 struct MaskOptions {
-  int resolution = 4;      ///< R: cells per axis of an object mask
-  int ray_resolution = 4;  ///< R_ray: cells per axis of the ray's key; need not be a multiple of R
+  int resolution = 4;             ///< R: cells per axis of an object mask
+  int ray_resolution = 4;         ///< R_ray: cells per axis of the ray's key; need not be a multiple of R
   int levels = kUnlimitedLevels;  ///< L: object masks from nodes L levels below (paper 3.2.1); 0: from all triangles
   bool operator==(const MaskOptions&) const = default;
 };

@@ -2,9 +2,9 @@
 // space (from the two faces themselves). Plane k of R lies at ((R-k) first + k second) / R, which grows with both
 // arguments, so directed rounding of a lower pair gives a lower bound and of an upper pair an upper bound.
 //
-// The arithmetic, twin of the unit's: each bound is add(mul(w, first), mul(v, second)), all three rounded in the bound's
-// direction; w = (R-k)/R and v = k/R are constants, of which the neighbour is taken that moves the product outward
-// (decided by the operand's sign; one constant when R is a power of two).
+// The arithmetic, twin of the unit's: each bound is add(mul(w, first), mul(v, second)), all three rounded in the
+// bound's direction; w = (R-k)/R and v = k/R are constants, of which the neighbour is taken that moves the product
+// outward (decided by the operand's sign; one constant when R is a power of two).
 //
 // No NaN arises. The constants are neither zero nor infinite, so no product is invalid. A lower bound's operands are
 // below +infinity (rounding down never gives +infinity from a finite exact time) and an upper bound's are above
@@ -35,7 +35,8 @@ struct LerpWeights {
 };
 const LerpWeights& lerp_weights(int resolution);
 
-template <Round M> Float4 lerp_planes(const LerpWeights& weights, int group, float first, float second) {
+template <Round M>
+Float4 lerp_planes(const LerpWeights& weights, int group, float first, float second) {
   constexpr bool kDown = M == Round::Down;
   const Float4 w = (first < 0) == kDown ? weights.first_up[group] : weights.first_down[group];
   const Float4 v = (second < 0) == kDown ? weights.second_up[group] : weights.second_down[group];

@@ -90,7 +90,8 @@ void sweep_row(const AxisSweep& x, const AxisSweep& y, const AxisSweep& z, std::
   }
 }
 
-template <int R> void sweep_all(const AxisSweeps& sweeps, int n, std::uint64_t* row) {
+template <int R>
+void sweep_all(const AxisSweeps& sweeps, int n, std::uint64_t* row) {
   for (int ez = 0; ez < n; ++ez)
     for (int ey = 0; ey < n; ++ey)
       for (int ex = 0; ex < n; ++ex)

@@ -18,7 +18,9 @@ class RayMaskTable {
   int words() const { return words_; }
   std::uint32_t rows() const { return rows_; }
   std::uint32_t row_index(CellKey key) const;
-  const std::uint64_t* row(std::uint32_t index) const { return bits_.data() + static_cast<std::size_t>(index) * words_; }
+  const std::uint64_t* row(std::uint32_t index) const {
+    return bits_.data() + static_cast<std::size_t>(index) * words_;
+  }
 
  private:
   int resolution_, ray_resolution_, words_;

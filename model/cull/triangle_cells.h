@@ -5,13 +5,14 @@
 // Everything happens in grid coordinates u = (x - lower) * R / (upper - lower), in binary64, where cells are unit
 // cubes: an affine change of coordinates keeps what touches what, and boxes of any aspect look alike.
 //
-// Error bounds, for |u| <= M with M >= 8. Inputs are binary32, so x - lower rounds once and u has a relative error below
-// 4 * 2^-53, an absolute one below M 2^-51 = d. Edge normals are differences of two u: error below 3 d. An edge's
-// offset is a sum of two products of such: below 2 (M d + 3 M d) plus rounding, and moving it to a cell adds
-// as much again: below 24 M d < 2^-46 M^2. The plane's normal has products of two edges: below 8 * 3 M d each, its
-// offset sums three products of it with u: below 2^-43 M^3 with the move to a cell. An axis separates only when
-// its gap exceeds these bounds. For a box that holds its triangles M = 8 and a cell is marked in vain
-// only if the triangle passes it by less than about 1e-11 of a cell (by the edge's or normal's length).
+// Error bounds, for |u| <= M with M >= 8. Inputs are binary32, so x - lower rounds once; u has a relative error below
+// 4 * 2^-53 and an absolute one below d = M 2^-51. Edges are differences of two u: at most 2 M, off by less than 3 d.
+// An edge's offset, two products of an edge's component and u, is off by less than 12 M d, its terms for a cell by less
+// than 9 M d more: together below 2^-46 M^2. The plane's normal, two products of edges each, is off by less than 28 M
+// d, its offset by less than 126 M^2 d, its terms for a cell by less than 103 M^2 d: together below 2^-43 M^3. An axis
+// separates only when its gap exceeds these bounds, so no touched cell is lost; for a box that holds its triangles
+// M = 8, and a cell is marked in vain only when the triangle passes it by some 1e-11 of a cell or less, over the
+// length of the edge or the normal.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +30,8 @@ struct Bounds {
 
 /// The map from space to the grid of a box. A flat axis (lower == upper) maps to the middle of cell 0, and whatever
 /// touches that layer is repeated in every cell of the axis.
-template <int R> struct BoxGrid {
+template <int R>
+struct BoxGrid {
   double lower[3], scale[3], shift[3];
   unsigned flat_axes = 0;
 
@@ -47,7 +49,8 @@ template <int R> struct BoxGrid {
 };
 
 /// Closed cells that meet [low, high] on one axis.
-template <int R> void closed_cells(double low, double high, int& first, int& last) {
+template <int R>
+void closed_cells(double low, double high, int& first, int& last) {
   constexpr double kMargin = 0x1p-45;
   first = static_cast<int>(std::ceil(std::clamp(low - kMargin, 0.0, R - 0.5))) - 1;
   first = first < 0 ? 0 : first;
@@ -55,7 +58,8 @@ template <int R> void closed_cells(double low, double high, int& first, int& las
 }
 
 /// Closed cells that meet a box; all of them along a flat axis. Grows with the box, rounding included.
-template <int R> CellRange closed_cells(const BoxGrid<R>& grid, const Bounds& box) {
+template <int R>
+CellRange closed_cells(const BoxGrid<R>& grid, const Bounds& box) {
   CellRange range;
   for (int a = 0; a < 3; ++a) {
     closed_cells<R>(grid.to_grid(a, box.lower[a]), grid.to_grid(a, box.upper[a]), range.first[a], range.last[a]);
@@ -71,7 +75,8 @@ inline bool is_one_cell(const CellRange& range, unsigned flat_axes) {
   return true;
 }
 
-template <int R> void add_cells(std::uint64_t* mask, const MaskWords<R>& cells) {
+template <int R>
+void add_cells(std::uint64_t* mask, const MaskWords<R>& cells) {
   for (int w = 0; w < kWords<R>; ++w) mask[w] |= cells[w];
 }
 
@@ -82,7 +87,8 @@ struct GridTriangle {
   double edge_margin, plane_margin;
 };
 
-template <int R> GridTriangle to_grid(const BoxGrid<R>& grid, const Vec3& v0, const Vec3& v1, const Vec3& v2) {
+template <int R>
+GridTriangle to_grid(const BoxGrid<R>& grid, const Vec3& v0, const Vec3& v1, const Vec3& v2) {
   GridTriangle t;
   double most = 8;
   const Vec3* vertices[3] = {&v0, &v1, &v2};
@@ -97,7 +103,8 @@ template <int R> GridTriangle to_grid(const BoxGrid<R>& grid, const Vec3& v0, co
 }
 
 /// Bit i + R*j: the projection onto axes (a, b) touches cell (i, j), for cells in the range.
-template <int R> std::uint64_t projection_cells(const GridTriangle& t, int a, int b, const CellRange& range) {
+template <int R>
+std::uint64_t projection_cells(const GridTriangle& t, int a, int b, const CellRange& range) {
   double na[3], nb[3], least[3], most[3];
   for (int e = 0; e < 3; ++e) {
     const double *p = t.u[e], *q = t.u[(e + 1) % 3], *r = t.u[(e + 2) % 3];
@@ -124,7 +131,8 @@ template <int R> std::uint64_t projection_cells(const GridTriangle& t, int a, in
 }
 
 /// Removes the cells that the triangle's plane does not touch.
-template <int R> void keep_cells_on_plane(const GridTriangle& t, MaskWords<R>& cells) {
+template <int R>
+void keep_cells_on_plane(const GridTriangle& t, MaskWords<R>& cells) {
   double e1[3], e2[3];
   for (int a = 0; a < 3; ++a) {
     e1[a] = t.u[1][a] - t.u[0][a];
@@ -147,7 +155,8 @@ template <int R> void keep_cells_on_plane(const GridTriangle& t, MaskWords<R>& c
 }
 
 /// Repeats cell 0's layer of a flat axis in every layer.
-template <int R> void repeat_layer(MaskWords<R>& cells, int axis) {
+template <int R>
+void repeat_layer(MaskWords<R>& cells, int axis) {
   const MaskWords<R> layer = cells;
   const int stride = axis == 0 ? 1 : axis == 1 ? R : R * R;
   for (int w = 0; w < kWords<R>; ++w)

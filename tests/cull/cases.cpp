@@ -57,7 +57,8 @@ Vec3 CaseMaker::point_in(const Family& family, const Vec3& lo, const Vec3& hi) {
   Vec3 p;
   for (int a = 0; a < 3; ++a) {
     // A lattice of eighths meets the cell planes of R = 2, 4, 8 often.
-    const float share = family.lattice || integer(0, 7) == 0 ? 0.125f * static_cast<float>(integer(0, 8)) : uniform(0, 1);
+    const float share =
+        family.lattice || integer(0, 7) == 0 ? 0.125f * static_cast<float>(integer(0, 8)) : uniform(0, 1);
     p[a] = std::clamp(lo[a] + share * (hi[a] - lo[a]), lo[a], hi[a]);
   }
   return p;
@@ -102,9 +103,13 @@ RayAndBox CaseMaker::ray_and_box(const Family& family) {
 void CaseMaker::triangle(const Family& family, const Vec3& lo, const Vec3& hi, Vec3 (&vertices)[3]) {
   for (Vec3& v : vertices) v = point_in(family, lo, hi);
   switch (integer(0, 7)) {
-    case 0: vertices[2] = vertices[1]; break;                 // a segment
-    case 1: vertices[2] = vertices[1] = vertices[0]; break;   // a point
-    case 2:                                                   // thin
+    case 0:
+      vertices[2] = vertices[1];
+      break;  // a segment
+    case 1:
+      vertices[2] = vertices[1] = vertices[0];
+      break;  // a point
+    case 2:   // thin
       for (int a = 0; a < 3; ++a)
         vertices[2][a] = std::clamp(vertices[1][a] + 0.01f * (vertices[2][a] - vertices[1][a]), lo[a], hi[a]);
       break;
@@ -113,7 +118,8 @@ void CaseMaker::triangle(const Family& family, const Vec3& lo, const Vec3& hi, V
       vertices[1][a] = vertices[2][a] = vertices[0][a];
       break;
     }
-    default: break;
+    default:
+      break;
   }
 }
 

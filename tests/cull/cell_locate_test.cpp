@@ -48,8 +48,7 @@ TEST_P(CellLocate, a_certain_key_names_the_floor_cells_of_the_exact_first_and_la
     ++asked;
     uncertain += located.key.uncertain();
     if (located.key.uncertain()) continue;
-    const test::ExactOverlap exact =
-        test::exact_overlap_cells(c.ray, c.lo, c.hi, resolution, c.ray.tmin, c.ray.tmax);
+    const test::ExactOverlap exact = test::exact_overlap_cells(c.ray, c.lo, c.hi, resolution, c.ray.tmin, c.ray.tmax);
     if (exact.hit) {
       ASSERT_EQ(begin_of(located.key), exact.begin) << "R_ray " << resolution << ": " << test::text(c);
       ASSERT_EQ(end_of(located.key), exact.end) << "R_ray " << resolution << ": " << test::text(c);

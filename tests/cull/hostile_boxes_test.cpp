@@ -45,8 +45,7 @@ TEST(HostileBoxes, no_touched_cell_is_lost_and_certain_keys_are_exact) {
       comparator_mask(ray, times, c.boxes, lane, r, words.data());
       ASSERT_TRUE(holds(words, oracle::exact_ray_cells(c.ray, lo, hi, r, c.ray.tmin, c.tmax)));
       ideal_mask(ray, times, c.boxes, lane, r, words.data());
-      ASSERT_TRUE(
-          holds(words, oracle::exact_ray_cells(c.ray, lo, hi, r, c.ray.tmin, c.tmax, oracle::Cells::HalfOpen)));
+      ASSERT_TRUE(holds(words, oracle::exact_ray_cells(c.ray, lo, hi, r, c.ray.tmin, c.tmax, oracle::Cells::HalfOpen)));
 
       const CellKey key = cell_locate(ray, times, c.boxes, lane, r);
       const test::ExactOverlap exact = test::exact_overlap_cells(c.ray, lo, hi, r, c.ray.tmin, c.tmax);

@@ -76,7 +76,8 @@ TEST_P(Levels, masks_of_twice_the_l_are_within_those_of_l) {
       ASSERT_TRUE(contains(by_level[static_cast<std::size_t>(few)], by_level[static_cast<std::size_t>(many)]))
           << "R " << r << ", L " << few << " and " << many;
     for (int levels = 1; levels < 5; ++levels)
-      EXPECT_LE(cells(by_level[static_cast<std::size_t>(levels + 1)]), cells(by_level[static_cast<std::size_t>(levels)]))
+      EXPECT_LE(cells(by_level[static_cast<std::size_t>(levels + 1)]),
+                cells(by_level[static_cast<std::size_t>(levels)]))
           << "R " << r << ", L " << levels;
   }
 }
@@ -86,20 +87,26 @@ TEST_P(Levels, an_l_deeper_than_the_tree_takes_every_triangle) {
   EXPECT_EQ(build_object_masks(bvh, {.levels = kMaxLevels}, 1).bits, build_object_masks(bvh, {}, 1).bits);
 }
 
-TEST_P(Levels, masks_do_not_depend_on_the_number_of_threads) {
+// Large enough for the tree to be cut: boxes above the cut are finished after the tasks.
+TEST_P(Levels, masks_of_a_tree_cut_for_threads_are_conservative_and_do_not_depend_on_their_number) {
   const accel::Bvh4 bvh = accel::build(make_mesh(GetParam(), 12000, 4), {});
-  for (const int r : {4, 6})
+  for (const int r : {4, 6}) {
+    const ObjectMasks tight = build_object_masks(bvh, {.resolution = r}, 1);
     for (const int levels : {kUnlimitedLevels, 1, 2, 3}) {
       const MaskOptions options{.resolution = r, .levels = levels};
       const ObjectMasks one = build_object_masks(bvh, options, 1);
+      ASSERT_TRUE(contains(one, tight)) << "R " << r << ", L " << levels;
       for (const int threads : {2, 7})
         ASSERT_EQ(build_object_masks(bvh, options, threads).bits, one.bits) << "R " << r << ", L " << levels;
     }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Levels, testing::Values(Shape::Random, Shape::Lattice, Shape::Thin),
                          [](const auto& info) {
-                           return info.param == Shape::Random ? "random" : info.param == Shape::Thin ? "thin" : "lattice";
+                           return info.param == Shape::Random ? "random"
+                                  : info.param == Shape::Thin ? "thin"
+                                                              : "lattice";
                          });
 
 // Algorithm 2 as printed takes floor(R (border - lower) / extent) for the upper border too, which fills a

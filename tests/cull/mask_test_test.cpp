@@ -81,7 +81,8 @@ TEST_P(MaskTest, projection_answers_as_the_table_and_the_untabled_designs_are_or
     if (!ray.valid) continue;
     const intersect::Box4 boxes = test::box_in_lane_0(c.lo, c.hi);
     const intersect::SlabTimes times = intersect::slab_test(ray, boxes, c.ray.tmax);
-    const std::uint64_t objects[4] = {std::uint64_t{1} << make.integer(0, 63) | std::uint64_t{1} << make.integer(0, 63)};
+    const std::uint64_t objects[4] = {std::uint64_t{1} << make.integer(0, 63) | std::uint64_t{1}
+                                                                                    << make.integer(0, 63)};
     const MaskTestResult by_table = table.test(ray, times, boxes, objects);
     const MaskTestResult by_projection = projection.test(ray, times, boxes, objects);
     ASSERT_EQ(by_table.pass, by_projection.pass) << test::text(c);

@@ -109,8 +109,8 @@ TEST(ObjectMasks, given_a_thousand_equal_triangles_then_every_box_has_the_same_m
   const accel::Bvh4 bvh = accel::build(mesh, {});
   for (const int levels : {kUnlimitedLevels, 1, 3}) {
     const ObjectMasks masks = build_object_masks(bvh, {.resolution = 4, .levels = levels}, 2);
-    const CellSet expected = oracle::exact_triangle_cells(bvh.lower, bvh.upper, 4, mesh.vertices[0], mesh.vertices[1],
-                                                          mesh.vertices[2]);
+    const CellSet expected =
+        oracle::exact_triangle_cells(bvh.lower, bvh.upper, 4, mesh.vertices[0], mesh.vertices[1], mesh.vertices[2]);
     for (std::uint32_t node = 0; node < bvh.nodes.size(); ++node)
       for (int lane = 0; lane < intersect::kLanes; ++lane)
         if (bvh.nodes[node].child[lane] != accel::kEmptyChild) {

@@ -8,8 +8,7 @@ namespace ctu::cull {
 namespace {
 
 TEST(Options, every_design_is_found_by_its_name) {
-  for (const Design design :
-       {Design::None, Design::Ideal, Design::MaskLut, Design::Projection, Design::Comparators})
+  for (const Design design : {Design::None, Design::Ideal, Design::MaskLut, Design::Projection, Design::Comparators})
     EXPECT_EQ(design_from_string(to_string(design)), design) << to_string(design);
   EXPECT_EQ(to_string(Design::MaskLut), "mask-lut");
   EXPECT_FALSE(design_from_string("masklut").has_value());

@@ -14,21 +14,23 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-template <Round M> float plane(int resolution, int k, float first, float second) {
+template <Round M>
+float plane(int resolution, int k, float first, float second) {
   return lerp_planes<M>(lerp_weights(resolution), (k - 1) / 4, first, second)[(k - 1) % 4];
 }
 
 /// Sign of R bound - ((R-k) first + k second), exactly.
 int side(int r, int k, float first, float second, float bound) {
-  return sign_of_sum({static_cast<double>(r) * bound, -static_cast<double>(r - k) * first,
-                      -static_cast<double>(k) * second, 0.0});
+  return sign_of_sum(
+      {static_cast<double>(r) * bound, -static_cast<double>(r - k) * first, -static_cast<double>(k) * second, 0.0});
 }
 
 TEST(PlaneTimes, bounds_enclose_the_exact_plane_within_a_few_steps_for_every_sign_and_size) {
   SCOPED_TRACE(oracle::seed_note());
   std::mt19937_64 random(oracle::test_seed());
   auto number = [&] {
-    const double magnitude = std::ldexp(1 + static_cast<double>(random() >> 11) * 0x1p-53, static_cast<int>(random() % 8) - 4);
+    const double magnitude =
+        std::ldexp(1 + static_cast<double>(random() >> 11) * 0x1p-53, static_cast<int>(random() % 8) - 4);
     return static_cast<float>(random() % 2 == 0 ? magnitude : -magnitude);
   };
   for (int i = 0; i < 20000; ++i) {
@@ -36,7 +38,8 @@ TEST(PlaneTimes, bounds_enclose_the_exact_plane_within_a_few_steps_for_every_sig
     for (int r = kMinResolution; r <= kMaxRayResolution; ++r)
       for (int k = 1; k < r; ++k) {
         const float down = plane<Round::Down>(r, k, first, second), up = plane<Round::Up>(r, k, first, second);
-        ASSERT_LE(side(r, k, first, second, down), 0) << r << " " << k << std::hexfloat << " " << first << " " << second;
+        ASSERT_LE(side(r, k, first, second, down), 0)
+            << r << " " << k << std::hexfloat << " " << first << " " << second;
         ASSERT_GE(side(r, k, first, second, up), 0) << r << " " << k << std::hexfloat << " " << first << " " << second;
         const double size = std::fabs(first) + std::fabs(second);
         ASSERT_LE(static_cast<double>(up) - down, size * 0x1p-21);

@@ -55,7 +55,8 @@ bool swept_cell_overlaps(Sizes s, const int (&begin)[3], const int (&end)[3], co
   for (int a = 0; a < 3; ++a) {
     const int b = (a + 1) % 3, c = (a + 2) % 3;
     if (way[b] == 0 && way[c] == 0) continue;
-    if (std::labs(middle[b] * way[c] - middle[c] * way[b]) >= half * (std::labs(way[b]) + std::labs(way[c]))) return false;
+    if (std::labs(middle[b] * way[c] - middle[c] * way[b]) >= half * (std::labs(way[b]) + std::labs(way[c])))
+      return false;
   }
   return true;
 }
