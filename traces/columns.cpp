@@ -44,7 +44,7 @@ void gather(const std::uint8_t* __restrict from, std::size_t elements, std::uint
 }  // namespace
 
 std::string to_string(Per per) {
-  static constexpr const char* kNames[] = {"ray", "step", "key", "word"};
+  static constexpr const char* kNames[] = {"ray", "step", "key", "word", ""};
   return kNames[static_cast<int>(per)];
 }
 

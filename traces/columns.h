@@ -11,12 +11,12 @@
 namespace ctu::traces {
 
 /// What one element of a column belongs to: columns of the same unit have equally many elements in a block.
-enum class Per : std::uint8_t { Ray, Step, Key, Word };
+enum class Per : std::uint8_t { Ray, Step, Key, Word, Unknown };
 
 struct Column {
   std::string name;
   std::string type;  ///< "f32", "u32", "u16", "u8"
-  Per per = Per::Ray;
+  Per per = Per::Unknown;
   std::string unit;
   std::string description;
 };

@@ -1,10 +1,10 @@
 #include "traces/ray_generator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "model/base/error.h"
-#include "traces/sampling.h"
 
 namespace ctu::traces {
 namespace {
@@ -35,9 +35,6 @@ Pixel pixel_at(std::uint64_t index, const RayOptions& options) {
   const std::uint32_t in_tile = static_cast<std::uint32_t>(in_band - static_cast<std::uint64_t>(left) * rows);
   return {left + in_tile % columns, top + in_tile / columns};
 }
-
-void store(double (&to)[3], const Vec3d& from) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
-Vec3d load(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
 
 double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -78,10 +75,7 @@ RayGenerator::RayGenerator(const scene::Scene& scene, const RayOptions& options)
   const Vec3d right = normalized(cross(forward, widen(camera.up)), normalized(cross(forward, other), {1, 0, 0}));
   const SinCos half = sin_cos(camera.vertical_fov_degrees * kDegree / 2);
   const double tall = half.sin / half.cos, wide = tall * options.width / options.height;
-  store(basis_.eye, widen(camera.eye));
-  store(basis_.forward, forward);
-  store(basis_.right, right * wide);
-  store(basis_.up, cross(right, forward) * tall);
+  basis_ = {forward, right * wide, cross(right, forward) * tall};
 }
 
 std::uint32_t RayGenerator::max_rays_per_path() const {
@@ -96,8 +90,8 @@ Ray RayGenerator::primary_ray(std::uint32_t x, std::uint32_t y, std::uint32_t sa
     in_x = random[0], in_y = random[1];
   }
   const double across = 2 * (x + in_x) / options_.width - 1, down = 2 * (y + in_y) / options_.height - 1;
-  const Vec3d forward = load(basis_.forward);
-  const Vec3d direction = normalized(forward + load(basis_.right) * across - load(basis_.up) * down, forward);
+  const Vec3d direction =
+      normalized(basis_.forward + basis_.right * across - basis_.up * down, basis_.forward);
   return {scene_.camera.eye, 0, round_to_nearest(direction), kInfinity, RayKind::ClosestHit};
 }
 

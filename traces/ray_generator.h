@@ -14,6 +14,7 @@
 #include "model/intersect/ray.h"
 #include "model/scene/scene.h"
 #include "traces/ray_options.h"
+#include "traces/sampling.h"
 
 namespace ctu::traces {
 
@@ -38,7 +39,7 @@ class RayGenerator {
 
  private:
   struct Basis {  // right and up span the picture at distance 1: pixel centres lie in (-1, 1) times their lengths
-    double eye[3], forward[3], right[3], up[3];
+    Vec3d forward, right, up;
   };
 
   void walk_path(std::uint64_t path, const TraceRay& trace, std::vector<intersect::Ray>& rays,
@@ -50,7 +51,7 @@ class RayGenerator {
   const scene::Scene& scene_;
   RayOptions options_;
   std::uint64_t paths_ = 0;
-  Basis basis_{};
+  Basis basis_;
   Vec3 light_;
   double diagonal_ = 0;
 };

@@ -32,18 +32,15 @@ TraceReader::TraceReader(const std::string& path) : file_(path) {
   index_ = std::move(layout.index);
   manifest_ = manifest_from_json(layout.manifest, path);
   index_columns();
-  expect_columns(image_section(), section_number("image"));
-  for (const Section& wanted : {rays_section(), hits_section()}) {
-    expect_columns(wanted, section_number(wanted.name));
-    check_ray_columns(section_number(wanted.name));
-  }
+  std::vector<Section> of_rays = {rays_section(), hits_section()};
   for (const DesignCounts& entry : manifest_.designs) {
-    if (!entry.stored) continue;
     const bool keys = cull::event_class(entry.design) == cull::Design::MaskLut;
-    const std::string name(cull::to_string(entry.design));
-    expect_columns(steps_section(name, keys), section_number("steps." + name));
-    check_ray_columns(section_number("steps." + name));
+    if (entry.stored) of_rays.push_back(steps_section(std::string(cull::to_string(entry.design)), keys));
   }
+  expect_columns(image_section());
+  for (const Section& wanted : of_rays) expect_columns(wanted);
+  count_rays();
+  for (const Section& wanted : of_rays) expect_rays(wanted);
   if (rays() != manifest_.ray_count) refuse("rays", "not as many rays as the manifest says");
   hash_ = trace_hash(manifest_, index_);
 }
@@ -72,44 +69,47 @@ void TraceReader::index_columns() {
   }
 }
 
-std::size_t TraceReader::section_number(const std::string& name) const {
-  const auto& sections = manifest_.sections;
-  return static_cast<std::size_t>(
-      std::find_if(sections.begin(), sections.end(), [&](const Section& s) { return s.name == name; }) -
-      sections.begin());
-}
-
-void TraceReader::expect_columns(const Section& wanted, std::size_t section) const {
-  if (section == manifest_.sections.size()) refuse(wanted.name, "the section is missing");
-  const Section& found = manifest_.sections[section];
+void TraceReader::expect_columns(const Section& wanted) const {
+  const auto found = std::find_if(manifest_.sections.begin(), manifest_.sections.end(),
+                                  [&](const Section& section) { return section.name == wanted.name; });
+  if (found == manifest_.sections.end()) refuse(wanted.name, "the section is missing");
   for (const Column& column : wanted.columns) {
-    const auto same = [&](const Column& c) { return c.name == column.name && c.type == column.type; };
-    if (std::none_of(found.columns.begin(), found.columns.end(), same))
+    const auto match = std::find_if(found->columns.begin(), found->columns.end(),
+                                    [&](const Column& one) { return one.name == column.name; });
+    if (match == found->columns.end() || match->type != column.type)
       refuse(wanted.name, fmt::format("column {} of type {} is missing", column.name, column.type));
   }
 }
 
-/// Ray columns have the same blocks everywhere; the first one met says which.
-void TraceReader::check_ray_columns(std::size_t section) {
-  const Section& described = manifest_.sections[section];
-  const bool first_met = described.name == "rays";
-  for (std::size_t c = 0; c < described.columns.size(); ++c) {
-    const std::vector<std::uint32_t>& entries = places_[section][c].entries;
-    if (first_met && c == 0) {
-      for (const std::uint32_t entry : entries) {
-        const std::uint32_t rays = index_[entry].elements;
-        if (rays == 0 || rays > kMaxRaysPerBlock)
-          refuse(described.name, fmt::format("{} rays in one block; 1 to {} are possible", rays, kMaxRaysPerBlock));
-        first_ray_.push_back(first_ray_.back() + rays);
-      }
-    }
+/// Only for columns that expect_columns() found.
+const TraceReader::ColumnPlace& TraceReader::place(const std::string& section, const std::string& column) const {
+  std::size_t s = 0, c = 0;
+  while (manifest_.sections[s].name != section) ++s;
+  while (manifest_.sections[s].columns[c].name != column) ++c;
+  return places_[s][c];
+}
+
+/// The first ray column says where blocks begin.
+void TraceReader::count_rays() {
+  const Section rays = rays_section();
+  for (const std::uint32_t entry : place(rays.name, rays.columns.front().name).entries) {
+    const std::uint32_t count = index_[entry].elements;
+    if (count == 0 || count > kMaxRaysPerBlock)
+      refuse(rays.name, fmt::format("{} rays in one block; 1 to {} are possible", count, kMaxRaysPerBlock));
+    first_ray_.push_back(first_ray_.back() + count);
+  }
+}
+
+/// All columns have those blocks, and those with an element for each ray have as many.
+void TraceReader::expect_rays(const Section& wanted) const {
+  for (const Column& column : wanted.columns) {
+    const std::vector<std::uint32_t>& entries = place(wanted.name, column.name).entries;
     if (entries.size() != blocks())
-      refuse(described.name, fmt::format("column {} has {} blocks instead of {}", described.columns[c].name,
-                                         entries.size(), blocks()));
-    if (described.columns[c].per != Per::Ray) continue;
+      refuse(wanted.name, fmt::format("column {} has {} blocks instead of {}", column.name, entries.size(), blocks()));
+    if (column.per != Per::Ray) continue;
     for (std::uint64_t b = 0; b < blocks(); ++b)
       if (index_[entries[b]].elements != first_ray_[b + 1] - first_ray_[b])
-        refuse(described.name, fmt::format("{} has another number of rays than the block", describe(index_[entries[b]])));
+        refuse(wanted.name, fmt::format("{} has another number of rays than the block", describe(index_[entries[b]])));
   }
 }
 
@@ -125,12 +125,7 @@ bool TraceReader::has_steps(cull::Design design) const {
 template <class T>
 std::vector<T> TraceReader::read_column(ColumnDecoder& decoder, const std::string& section, const char* column,
                                         std::uint64_t block, std::optional<std::uint64_t> elements) const {
-  const std::size_t s = section_number(section);
-  const auto& columns = manifest_.sections[s].columns;
-  const auto c = static_cast<std::size_t>(
-      std::find_if(columns.begin(), columns.end(), [&](const Column& one) { return one.name == column; }) -
-      columns.begin());
-  const IndexEntry& entry = index_[places_[s][c].entries[block]];
+  const IndexEntry& entry = index_[place(section, column).entries[block]];
   const std::string what = describe(entry);
   if (elements && entry.elements != *elements)
     refuse(what, fmt::format("{} elements instead of {}", entry.elements, *elements));
@@ -142,8 +137,7 @@ std::vector<T> TraceReader::read_column(ColumnDecoder& decoder, const std::strin
 }
 
 accel::Image TraceReader::read_image() const {
-  const std::size_t section = section_number("image");
-  const auto& entries = places_[section][0].entries;
+  const std::vector<std::uint32_t>& entries = place("image", "words").entries;
   std::uint64_t bytes = 0;
   for (const std::uint32_t entry : entries) bytes += std::uint64_t{index_[entry].elements} * sizeof(std::uint32_t);
   if (bytes != manifest_.image.size_bytes) refuse("image", "not as many bytes as the manifest says");

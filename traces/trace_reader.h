@@ -47,9 +47,10 @@ class TraceReader {
     std::vector<std::uint32_t> entries;  ///< index entry of each block
   };
   void index_columns();
-  void check_ray_columns(std::size_t section);
-  std::size_t section_number(const std::string& name) const;  ///< sections.size() when there is none
-  void expect_columns(const Section& wanted, std::size_t section) const;
+  void expect_columns(const Section& wanted) const;
+  void count_rays();
+  void expect_rays(const Section& wanted) const;
+  const ColumnPlace& place(const std::string& section, const std::string& column) const;
   template <class T>
   std::vector<T> read_column(ColumnDecoder& decoder, const std::string& section, const char* column,
                              std::uint64_t block, std::optional<std::uint64_t> elements) const;

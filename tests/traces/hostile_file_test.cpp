@@ -196,11 +196,16 @@ TEST_F(HostileFile, sections_and_columns_of_a_newer_program_are_skipped) {
     if (chunk.entry.section == 1 && chunk.entry.column == 8) {
       Parts::Chunk weight = chunk;
       weight.frame.assign(40, 7);
-      chunks.push_back(weight);
+      if (chunk.entry.block == 0) chunks.push_back(weight);
       chunk.entry.column = 9;
     }
     chunks.push_back(chunk);
   }
+  // A column in front of the image's words.
+  parts.replace("\"name\": \"words\",", "\"name\": \"age\", \"type\": \"u8\", \"per\": \"day\", \"unit\": \"\","
+                                        " \"description\": \"\" }, { \"name\": \"words\",");
+  for (Parts::Chunk& chunk : chunks)
+    if (chunk.entry.section == 0) chunk.entry.column = 1;
   Parts::Chunk rain = chunks.back();
   rain.entry.section = 6;
   rain.entry.column = 0;

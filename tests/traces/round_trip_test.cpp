@@ -205,6 +205,31 @@ TEST_F(RecordedTrace, given_a_range_outside_the_trace_when_asked_for_then_it_is_
   EXPECT_THROW(reader.read_block(0, Design::Ideal), Error);
 }
 
+TEST(TraceFile, given_hits_that_culling_changed_when_read_or_cut_then_they_are_still_listed_bit_for_bit) {
+  const TemporaryFolder folder;
+  const accel::Bvh4 bvh = accel::build(test::square_scene(1).mesh, {});
+  Manifest manifest;
+  manifest.scene.triangles = 2;
+  TraceWriter writer(folder.file("d.ctut"), manifest, accel::make_image(bvh, nullptr, 0, {}));
+  reference::RayBlock block;
+  block.rays.resize(10);
+  block.expected.resize(10);
+  writer.add(block, {});
+  const intersect::Hit hit{1.5f, -0.0f, std::bit_cast<float>(1u), 1};
+  const intersect::Hit miss{std::numeric_limits<float>::infinity(), 0, 0, intersect::kNoPrimitive};
+  writer.finish({{Design::MaskLut, false, {}, 2}}, {{Design::MaskLut, 3, hit, miss}, {Design::MaskLut, 8, hit, miss}});
+  slice(folder.file("d.ctut"), folder.file("s.ctut"), {5, 10});
+
+  const auto differences = TraceReader(folder.file("d.ctut")).manifest().differences;
+  ASSERT_EQ(differences.size(), 2u);
+  EXPECT_EQ(differences[0].ray, 3u);
+  EXPECT_TRUE(same_bits(differences[0].expected, hit));
+  EXPECT_TRUE(same_bits(differences[0].culled, miss));
+  const auto kept = TraceReader(folder.file("s.ctut")).manifest().differences;
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(kept[0].ray, 3u);
+}
+
 TEST(TraceFile, given_a_recording_that_stops_half_way_when_its_writer_is_gone_then_no_file_is_left) {
   const TemporaryFolder folder;
   {
