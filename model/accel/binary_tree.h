@@ -12,9 +12,9 @@
 namespace ctu::accel {
 
 struct BinaryNode {
-  float half_area;           ///< of the box of its triangles
-  std::uint32_t triangles;   ///< below it: a run of the reordered refs
-  std::uint32_t left;        ///< of them, in the left child; 0 in a leaf (one triangle)
+  float half_area;          ///< of the box of its triangles
+  std::uint32_t triangles;  ///< below it: a run of the reordered refs
+  std::uint32_t left;       ///< of them, in the left child; 0 in a leaf (one triangle)
 };
 
 constexpr std::uint32_t left_child(std::uint32_t node) { return node + 1; }

@@ -26,7 +26,8 @@ void check(const BuildOptions& o) {
   if (o.bins < 2 || o.bins > kMaxBins)
     throw Error(where, fmt::format("bins is {}", o.bins), fmt::format("choose 2 to {}", kMaxBins));
   if (!(o.node_cost > 0 && o.triangle_cost > 0 && std::isfinite(o.node_cost) && std::isfinite(o.triangle_cost)))
-    throw Error(where, "node_cost and triangle_cost must be finite and above 0", "choose 1 for both, as the paper does");
+    throw Error(where, "node_cost and triangle_cost must be finite and above 0",
+                "choose 1 for both, as the paper does");
 }
 
 void check_count(std::size_t triangles) {
@@ -74,7 +75,8 @@ float work_scale(const Box3& bounds) {
   double extent = 0, largest = 0;
   for (int axis = 0; axis < 3; ++axis) {
     extent = std::max(extent, static_cast<double>(upper[axis]) - lower[axis]);
-    largest = std::max({largest, std::fabs(static_cast<double>(lower[axis])), std::fabs(static_cast<double>(upper[axis]))});
+    largest =
+        std::max({largest, std::fabs(static_cast<double>(lower[axis])), std::fabs(static_cast<double>(upper[axis]))});
   }
   if (extent == 0) extent = largest;
   if (extent == 0) return 1;

@@ -149,9 +149,9 @@ Bvh4 collapse(std::span<const BinaryNode> tree, std::vector<LeafTriangle> triang
   for (std::size_t i = tree.size(); i-- > 0;) {  // children come after their parent
     const auto node = static_cast<std::uint32_t>(i);
     const std::uint32_t left = tree[i].left;
-    forests[i] = left == 0 ? cheapest_forest(tree[i], nullptr, nullptr, options)
-                           : cheapest_forest(tree[i], &forests[left_child(node)], &forests[right_child(node, left)],
-                                             options);
+    forests[i] = left == 0
+                     ? cheapest_forest(tree[i], nullptr, nullptr, options)
+                     : cheapest_forest(tree[i], &forests[left_child(node)], &forests[right_child(node, left)], options);
   }
   Bvh4 bvh;
   bvh.triangles = std::move(triangles);

@@ -55,11 +55,13 @@ bool is_alignment(std::uint32_t bytes) {
 void check(const ImageLayout& layout) {
   const char* const where = "image layout";
   if (!is_alignment(layout.node_alignment_bytes) || !is_alignment(layout.triangle_alignment_bytes))
-    throw Error(where, fmt::format("alignments are {} (nodes) and {} (triangles) bytes", layout.node_alignment_bytes,
-                                   layout.triangle_alignment_bytes),
+    throw Error(where,
+                fmt::format("alignments are {} (nodes) and {} (triangles) bytes", layout.node_alignment_bytes,
+                            layout.triangle_alignment_bytes),
                 fmt::format("choose powers of two from 4 to {}", kMaxAlignmentBytes));
   if (layout.mask_bits > kMaxMaskBits)
-    throw Error(where, fmt::format("mask_bits is {}", layout.mask_bits), fmt::format("choose at most {}", kMaxMaskBits));
+    throw Error(where, fmt::format("mask_bits is {}", layout.mask_bits),
+                fmt::format("choose at most {}", kMaxMaskBits));
 }
 
 /// Everything but the contents: strides, addresses and the size that follow from layout and counts.
@@ -71,8 +73,8 @@ Image frame(const ImageLayout& layout, std::uint32_t nodes, std::uint32_t triang
   image.triangle_stride_bytes = static_cast<std::uint32_t>(round_up(kTriangleBytes, layout.triangle_alignment_bytes));
   image.node_count = nodes;
   image.triangle_count = triangles;
-  image.triangle_base = round_up(image.node_address(nodes),
-                                 std::max(kImageSectionAlignmentBytes, layout.triangle_alignment_bytes));
+  image.triangle_base =
+      round_up(image.node_address(nodes), std::max(kImageSectionAlignmentBytes, layout.triangle_alignment_bytes));
   return image;
 }
 
@@ -217,7 +219,8 @@ Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask
   if (layout.mask_bits != 0 && (masks == nullptr || words_per_mask < static_cast<int>((layout.mask_bits + 63) / 64)))
     throw Error("image layout", fmt::format("{} mask bits but {} words", layout.mask_bits, words_per_mask),
                 "give masks of ceil(mask_bits / 64) words, or no mask_bits");
-  Image image = frame(layout, static_cast<std::uint32_t>(bvh.nodes.size()), static_cast<std::uint32_t>(bvh.triangles.size()));
+  Image image =
+      frame(layout, static_cast<std::uint32_t>(bvh.nodes.size()), static_cast<std::uint32_t>(bvh.triangles.size()));
   image.depth = bvh.depth;
   image.lower = bvh.lower;
   image.upper = bvh.upper;

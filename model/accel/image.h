@@ -41,8 +41,8 @@ struct Image {
   std::uint32_t node_stride_bytes = 0, triangle_stride_bytes = 0;
   std::uint64_t node_base = 0, triangle_base = 0;  ///< byte addresses
   std::uint32_t node_count = 0, triangle_count = 0;
-  int depth = 0;       ///< nodes on the longest path; a traversal stack never holds more than 3 * depth + 1 entries
-  Vec3 lower, upper;   ///< bounds of the scene
+  int depth = 0;      ///< nodes on the longest path; a traversal stack never holds more than 3 * depth + 1 entries
+  Vec3 lower, upper;  ///< bounds of the scene
   std::vector<std::uint8_t> bytes;
 
   std::uint64_t node_address(std::uint32_t index) const {

@@ -105,8 +105,8 @@ void sweep_bins(const Bin (&bins)[kMaxBins], int count, int axis, std::size_t tr
     right = triangles - left;
     if (left == 0 || bins[i - 1].count == 0) continue;  // an empty bin moves nothing
     if (right == 0) return;
-    best.offer(half_area(box) * static_cast<float>(left) + right_area[i] * static_cast<float>(right), left, right,
-               axis, i);
+    best.offer(half_area(box) * static_cast<float>(left) + right_area[i] * static_cast<float>(right), left, right, axis,
+               i);
   }
 }
 

@@ -34,8 +34,9 @@ TreeStatistics statistics(const Bvh4& bvh, double node_cost, double triangle_cos
       }
     }
   }
-  const double root = area(static_cast<double>(bvh.upper.x) - bvh.lower.x, static_cast<double>(bvh.upper.y) - bvh.lower.y,
-                           static_cast<double>(bvh.upper.z) - bvh.lower.z);
+  const double root =
+      area(static_cast<double>(bvh.upper.x) - bvh.lower.x, static_cast<double>(bvh.upper.y) - bvh.lower.y,
+           static_cast<double>(bvh.upper.z) - bvh.lower.z);
   if (root > 0) s.sah_cost = (node_cost * (root + node_area) + triangle_cost * triangle_area) / root;
   return s;
 }

@@ -23,32 +23,34 @@ struct Entry {
   Distance t;
 };
 
+/// Removes the lowest set lane from `lanes`.
+template <class Distance>
+[[gnu::always_inline]] inline Entry<Distance> take_lane(const Node8& node, const Distance* t, unsigned& lanes) {
+  const int lane = std::countr_zero(lanes);
+  lanes &= lanes - 1;
+  return {node.child[lane], t[lane]};
+}
+
 /// Puts the children of the set lanes but the nearest on the stack, farthest first; returns the nearest.
 template <class Distance>
 [[gnu::always_inline]] inline ChildRef nearest_of(const Node8& node, unsigned lanes, const Distance* t,
                                                   Entry<Distance>*& top) {
-  const auto take = [&] {
-    const int lane = std::countr_zero(lanes);
-    lanes &= lanes - 1;
-    return Entry<Distance>{node.child[lane], t[lane]};
-  };
-  Entry<Distance> nearest = take();
-  if (lanes == 0) return nearest.child;
+  Entry<Distance> nearest = take_lane(node, t, lanes);
   Entry<Distance>* const first = top;
-  do {
-    Entry<Distance> farther = take();
+  while (lanes != 0) {
+    Entry<Distance> farther = take_lane(node, t, lanes);
     if (farther.t < nearest.t) std::swap(farther, nearest);
     Entry<Distance>* at = top++;
     for (; at > first && at[-1].t < farther.t; --at) *at = at[-1];
     *at = farther;
-  } while (lanes != 0);
+  }
   return nearest.child;
 }
 
 /// Follows the nearest child down from `ref`, the others going to the stack: to a leaf, or to nothing.
 template <class Boxes, class Distance>
-[[gnu::always_inline]] inline ChildRef descend(const Node8* nodes, const Boxes& boxes, ChildRef ref,
-                                               Distance limit, Entry<Distance>*& top) {
+[[gnu::always_inline]] inline ChildRef descend(const Node8* nodes, const Boxes& boxes, ChildRef ref, Distance limit,
+                                               Entry<Distance>*& top) {
   while (accel::is_inner(ref)) {
     const Node8& node = nodes[ref];
     alignas(32) Distance t[kWideLanes];
@@ -87,7 +89,8 @@ Hit FastTracer::walk(const Ray& ray, const Boxes& boxes, const Triangle& triangl
     if (!(entry.t <= limit)) continue;
     const ChildRef leaf = descend(nodes_.data(), boxes, entry.child, limit, top);
     if (leaf == accel::kEmptyChild) continue;
-    const std::uint32_t first = accel::leaf_first(leaf), last = first + static_cast<std::uint32_t>(accel::leaf_count(leaf));
+    const std::uint32_t first = accel::leaf_first(leaf),
+                        last = first + static_cast<std::uint32_t>(accel::leaf_count(leaf));
     for (std::uint32_t i = first; i < last; ++i) {
       const intersect::TriangleResult r = triangle.test(rows_[i], best.t);
       if (!r.hit || !intersect::replaces(r.t, rows_[i].primitive(), best)) continue;

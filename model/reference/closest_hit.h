@@ -27,7 +27,8 @@ class FastTracer {
   bool occluded(const intersect::Ray& ray) const;
 
  private:
-  template <bool kAny> intersect::Hit trace(const intersect::Ray& ray) const;
+  template <bool kAny>
+  intersect::Hit trace(const intersect::Ray& ray) const;
   template <bool kAny, class Boxes, class Triangle>
   intersect::Hit walk(const intersect::Ray& ray, const Boxes& boxes, const Triangle& triangle) const;
 

@@ -83,7 +83,8 @@ class FastTriangle {
     const int negative = _mm_movemask_ps(_mm_cmplt_ps(p, q)) & 7, positive = _mm_movemask_ps(_mm_cmpgt_ps(p, q)) & 7;
     // A tiny z may have lost bits in the products of the shear.
     const __m128 sign = _mm_set1_ps(-0.0f);
-    if (_mm_movemask_ps(_mm_cmplt_ps(_mm_andnot_ps(sign, z), _mm_set1_ps(0x1p-60f))) & 7) return defined(triangle, tmax);
+    if (_mm_movemask_ps(_mm_cmplt_ps(_mm_andnot_ps(sign, z), _mm_set1_ps(0x1p-60f))) & 7)
+      return defined(triangle, tmax);
     if (negative != 0 && positive != 0) return {};
     return finish(x_cab, y_bca, y_cab, x_bca, z, triangle, tmax);
   }

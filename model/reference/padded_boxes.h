@@ -78,8 +78,12 @@ class FastBoxes {
   /// Bit lane: the box may be met in [tmin, limit]; then t[lane] is not after the first meeting.
   [[gnu::always_inline]] unsigned test(const Node8& node, Distance limit, Distance* t) const {
     const float* const rows = &node.lo[0][0];
-    const auto near = [&](int axis) { return multiply_add8(load8(rows + near_row_[axis]), reciprocal_[axis], near_[axis]); };
-    const auto far = [&](int axis) { return multiply_add8(load8(rows + far_row_[axis]), reciprocal_[axis], far_[axis]); };
+    const auto near = [&](int axis) {
+      return multiply_add8(load8(rows + near_row_[axis]), reciprocal_[axis], near_[axis]);
+    };
+    const auto far = [&](int axis) {
+      return multiply_add8(load8(rows + far_row_[axis]), reciprocal_[axis], far_[axis]);
+    };
     const Lanes8 entry = max8(max8(near(0), near(1)), max8(near(2), tmin_));
     const Lanes8 exit = min8(min8(far(0), far(1)), min8(far(2), splat8(limit)));
     store8(t, entry);

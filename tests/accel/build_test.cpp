@@ -155,7 +155,8 @@ TEST(Build, never_exceeds_the_leaf_limit) {
     options.triangle_cost = 0.01f;  // leaves as large as they may be
     for_each_tree(options, [limit](const scene::Mesh&, const Bvh4& bvh) {
       const accel::TreeStatistics s = accel::statistics(bvh);
-      for (int size = limit + 1; size <= accel::kMaxLeafTriangles; ++size) EXPECT_EQ(s.leaves_of_size[static_cast<std::size_t>(size)], 0u);
+      for (int size = limit + 1; size <= accel::kMaxLeafTriangles; ++size)
+        EXPECT_EQ(s.leaves_of_size[static_cast<std::size_t>(size)], 0u);
     });
   }
 }
@@ -189,7 +190,8 @@ TEST(Build, halves_equal_triangles_evenly) {
 
 TEST(Build, is_unchanged_by_scaling_with_a_power_of_two) {
   for (const float scale : {0x1p-40f, 0x1p-3f, 0x1p60f}) {
-    const NamedMesh& m = *std::find_if(meshes().begin(), meshes().end(), [](const NamedMesh& n) { return n.name == "quads"; });
+    const NamedMesh& m =
+        *std::find_if(meshes().begin(), meshes().end(), [](const NamedMesh& n) { return n.name == "quads"; });
     scene::Mesh scaled = m.mesh;
     for (Vec3& v : scaled.vertices) v = {v.x * scale, v.y * scale, v.z * scale};
     const Bvh4 a = accel::build(m.mesh, {}), b = accel::build(scaled, {});
@@ -206,7 +208,8 @@ TEST(Build, costs_less_by_the_surface_area_heuristic_than_a_tree_of_medians) {
   coarse.bins = 2;
   for (const NamedMesh& m : meshes()) {
     if (m.name != "hair" && m.name != "quads" && m.name != "giant among tiny") continue;
-    EXPECT_LT(accel::statistics(accel::build(m.mesh, {})).sah_cost, accel::statistics(accel::build(m.mesh, coarse)).sah_cost)
+    EXPECT_LT(accel::statistics(accel::build(m.mesh, {})).sah_cost,
+              accel::statistics(accel::build(m.mesh, coarse)).sah_cost)
         << m.name;
   }
 }

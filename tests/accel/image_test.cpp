@@ -44,7 +44,8 @@ std::uint32_t word_at(const Image& image, std::uint64_t address) {
   return word;
 }
 void set_word(Image& image, std::uint64_t address, std::uint32_t word) {
-  for (int i = 0; i < 4; ++i) image.bytes.at(address + static_cast<std::uint64_t>(i)) = static_cast<std::uint8_t>(word >> (8 * i));
+  for (int i = 0; i < 4; ++i)
+    image.bytes.at(address + static_cast<std::uint64_t>(i)) = static_cast<std::uint8_t>(word >> (8 * i));
 }
 
 Image image_with_masks(std::uint32_t bits, const std::vector<std::uint64_t>& masks) {
@@ -62,7 +63,8 @@ TEST(Image, has_the_strides_of_the_papers_figure_6) {
 }
 
 TEST(Image, rounds_strides_and_addresses_up_to_the_alignment) {
-  const Image image = accel::make_image(soup(), nullptr, 0, {.node_alignment_bytes = 64, .triangle_alignment_bytes = 16});
+  const Image image =
+      accel::make_image(soup(), nullptr, 0, {.node_alignment_bytes = 64, .triangle_alignment_bytes = 16});
   EXPECT_EQ(image.node_stride_bytes, 128u);
   EXPECT_EQ(image.triangle_stride_bytes, 48u);
   EXPECT_EQ(image.node_base, 0u);
@@ -82,7 +84,8 @@ TEST(Image, places_every_field_where_the_table_says) {
     for (unsigned lane = 0; lane < 4; ++lane) {
       for (unsigned axis = 0; axis < 3; ++axis) {
         ASSERT_EQ(word_at(image, at + 16 * axis + 4 * lane), std::bit_cast<std::uint32_t>(node.boxes.lo[axis][lane]));
-        ASSERT_EQ(word_at(image, at + 48 + 16 * axis + 4 * lane), std::bit_cast<std::uint32_t>(node.boxes.hi[axis][lane]));
+        ASSERT_EQ(word_at(image, at + 48 + 16 * axis + 4 * lane),
+                  std::bit_cast<std::uint32_t>(node.boxes.hi[axis][lane]));
       }
       ASSERT_EQ(word_at(image, at + 96 + 4 * lane), node.child[lane]);
       ASSERT_EQ(word_at(image, at + 112 + 8 * lane), static_cast<std::uint32_t>(masks[4 * n + lane]));
@@ -112,7 +115,9 @@ TEST(Image, gives_back_the_tree_it_was_made_of) {
       ASSERT_EQ(std::memcmp(back.nodes[n].child, bvh.nodes[n].child, sizeof bvh.nodes[n].child), 0);
     }
     ASSERT_EQ(back.triangles.size(), bvh.triangles.size());
-    EXPECT_EQ(std::memcmp(back.triangles.data(), bvh.triangles.data(), bvh.triangles.size() * sizeof(accel::LeafTriangle)), 0);
+    EXPECT_EQ(
+        std::memcmp(back.triangles.data(), bvh.triangles.data(), bvh.triangles.size() * sizeof(accel::LeafTriangle)),
+        0);
     EXPECT_EQ(back.depth, bvh.depth);
     EXPECT_EQ(back.lower, bvh.lower);
     EXPECT_EQ(back.upper, bvh.upper);
@@ -172,8 +177,10 @@ TEST(Validate, catches_references_that_lead_astray) {
   expect_caught("a node that is its own child", [](Image& i) { set_word(i, i.node_address(1) + kChild, 1); });
   expect_caught("a node that is its parent's parent", [](Image& i) { set_word(i, i.node_address(1) + kChild, 0); });
   expect_caught("two parents", [](Image& i) { set_word(i, kChild + 4, word_at(i, kChild)); });
-  expect_caught("a leaf beyond the last triangle", [](Image& i) { set_word(i, kChild, accel::make_leaf(i.triangle_count, 1)); });
-  expect_caught("a leaf across the last triangle", [](Image& i) { set_word(i, kChild, accel::make_leaf(i.triangle_count - 1, 2)); });
+  expect_caught("a leaf beyond the last triangle",
+                [](Image& i) { set_word(i, kChild, accel::make_leaf(i.triangle_count, 1)); });
+  expect_caught("a leaf across the last triangle",
+                [](Image& i) { set_word(i, kChild, accel::make_leaf(i.triangle_count - 1, 2)); });
   expect_caught("a triangle in two leaves", [](Image& i) { set_word(i, kChild, accel::make_leaf(0, 1)); });
   expect_caught("a hole before a child", [](Image& i) { set_word(i, kChild, accel::kEmptyChild); });
 }
@@ -209,7 +216,8 @@ TEST(Validate, lets_no_damaged_child_word_past_unless_it_is_a_tree) {
   const Image good = accel::make_image(soup(), nullptr, 0, {});
   for (int i = 0; i < 300; ++i) {
     Image image = good;
-    const std::uint64_t at = image.node_address(static_cast<std::uint32_t>(random() % image.node_count)) + kChild + 4 * (random() % 4);
+    const std::uint64_t at =
+        image.node_address(static_cast<std::uint32_t>(random() % image.node_count)) + kChild + 4 * (random() % 4);
     const auto word = static_cast<std::uint32_t>(random() % 2 == 0 ? random() : random() % image.node_count);
     if (word_at(image, at) == word) continue;
     set_word(image, at, word);

@@ -79,7 +79,8 @@ scene::Mesh equal_triangles(int count) {
 std::vector<NamedMesh> adversarial_meshes(std::uint64_t seed) {
   Dice dice(seed);
   std::vector<NamedMesh> meshes;
-  for (const int count : {1, 2, 3, 4, 5, 8, 9, 16, 17}) meshes.push_back({"soup of " + std::to_string(count), soup(count, 0.3f, dice)});
+  for (const int count : {1, 2, 3, 4, 5, 8, 9, 16, 17})
+    meshes.push_back({"soup of " + std::to_string(count), soup(count, 0.3f, dice)});
   const scene::Mesh base = soup(2000, 0.05f, dice);
   meshes.push_back({"soup", base});
   meshes.push_back({"large soup", soup(30000, 0.02f, dice)});  // enough for threads to share

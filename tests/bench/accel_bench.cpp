@@ -51,8 +51,8 @@ void trace(benchmark::State& state, const Tracer& tracer, const std::vector<Ray>
     benchmark::DoNotOptimize(hits);
   }
   state.counters["hits"] = static_cast<double>(hits);
-  state.counters["rays/s"] =
-      benchmark::Counter(static_cast<double>(rays.size()) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["rays/s"] = benchmark::Counter(
+      static_cast<double>(rays.size()) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 void build_ours(benchmark::State& state, const Fixture& fixture, int threads) {

@@ -1,8 +1,8 @@
 // The fast tracer beside Embree in robust mode, on generated and on real scenes. Two rounded tests differ where a ray
-// grazes an edge or lies almost in a triangle's plane; there the exact oracle judges. A triangle that it says is hit may
-// be missing from ours only where triangle_test, asked about it alone, rounds the ray past a free edge or puts its t
-// farther away (closed meshes stay closed): the boxes in front must not lose what triangle_test accepts. Real scenes are those in the folder CTU_SCENES (else ../shared/scenes beside the
-// repository); without it they are skipped.
+// grazes an edge or lies almost in a triangle's plane; there the exact oracle judges. A triangle that it says is hit
+// may be missing from ours only where triangle_test, asked about it alone, rounds the ray past a free edge or puts its
+// t farther away (closed meshes stay closed): the boxes in front must not lose what triangle_test accepts. Real scenes
+// are those in the folder CTU_SCENES (else ../shared/scenes beside the repository); without it they are skipped.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -134,7 +134,8 @@ class Comparison {
       const std::uint32_t primitive = theirs.primitive;
       const auto alone = intersect::triangle_test(intersect::prepare_ray(ray), corner(primitive, 0),
                                                   corner(primitive, 1), corner(primitive, 2), ray.tmax);
-      EXPECT_FALSE(alone.hit && intersect::replaces(alone.t, primitive, ours)) << "ours lost a hit on the way\n" << what;
+      EXPECT_FALSE(alone.hit && intersect::replaces(alone.t, primitive, ours)) << "ours lost a hit on the way\n"
+                                                                               << what;
       EXPECT_TRUE(!exact(ray, primitive).hit || grazes(ray, primitive)) << "ours missed a true hit\n" << what;
     } else {
       EXPECT_TRUE(exact(ray, ours.primitive).hit || grazes(ray, ours.primitive)) << "ours hit nothing\n" << what;
@@ -189,8 +190,9 @@ class RealScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealScene, is_hit_as_by_embree_or_the_exact_oracle_says_why_not) {
   const char* const given = std::getenv("CTU_SCENES");
-  const std::filesystem::path folder =
-      given != nullptr ? std::filesystem::path(given) : std::filesystem::path(CTU_REPOSITORY).parent_path() / "shared/scenes";
+  const std::filesystem::path folder = given != nullptr
+                                           ? std::filesystem::path(given)
+                                           : std::filesystem::path(CTU_REPOSITORY).parent_path() / "shared/scenes";
   const std::filesystem::path file = folder / GetParam();
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << ": set CTU_SCENES to the folder of the scenes";
   compare(scene::load(file.string()));

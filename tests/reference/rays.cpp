@@ -41,7 +41,8 @@ std::vector<intersect::Ray> primary_rays(const scene::Scene& scene, int width, i
       for (int i = 0; i < 16; ++i) {
         const int x = tx + i % 4, y = ty + i / 4;
         if (x >= width || y >= height) continue;
-        const float sx = half * (2 * (static_cast<float>(x) + 0.5f) - static_cast<float>(width)) / static_cast<float>(height);
+        const float sx =
+            half * (2 * (static_cast<float>(x) + 0.5f) - static_cast<float>(width)) / static_cast<float>(height);
         const float sy = half * (1 - 2 * (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
         rays.push_back({camera.eye, 0, normalized(forward + sx * right + sy * up), kForever});
       }
