@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 
 #include "model/accel/statistics.h"
 #include "model/base/error.h"
+#include "tests/accel/bits.h"
 #include "tests/accel/meshes.h"
 #include "tests/oracle/seed.h"
 
@@ -87,15 +87,10 @@ int depth_below(const Bvh4& bvh, std::uint32_t n) {
   return deepest + 1;
 }
 
-bool same_node(const accel::Node4& a, const accel::Node4& b) {
-  return std::memcmp(&a.boxes, &b.boxes, sizeof a.boxes) == 0 && std::memcmp(a.child, b.child, sizeof a.child) == 0;
-}
-
 bool same_tree(const Bvh4& a, const Bvh4& b) {
-  return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same_node) &&
-         a.triangles.size() == b.triangles.size() && a.depth == b.depth &&
-         std::memcmp(a.triangles.data(), b.triangles.data(), a.triangles.size() * sizeof(accel::LeafTriangle)) == 0 &&
-         a.lower == b.lower && a.upper == b.upper;
+  return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), test::same_node) &&
+         test::same_triangles(a.triangles, b.triangles) && a.depth == b.depth && a.lower == b.lower &&
+         a.upper == b.upper;
 }
 
 TEST(Build, puts_every_triangle_into_exactly_one_leaf) {
@@ -117,8 +112,8 @@ TEST(Build, keeps_the_vertices_of_every_triangle_to_the_bit) {
     ASSERT_EQ(bvh.triangles.size(), mesh.triangles.size());
     for (const accel::LeafTriangle& t : bvh.triangles) {
       const auto& c = mesh.triangles.at(t.primitive);
-      const Vec3 expected[3] = {mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]};
-      ASSERT_EQ(std::memcmp(expected, &t.v0, sizeof expected), 0) << "triangle " << t.primitive;
+      const accel::LeafTriangle expected{mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]], t.primitive};
+      ASSERT_TRUE(test::same_bits(expected, t)) << "triangle " << t.primitive;
     }
   });
 }
@@ -197,7 +192,7 @@ TEST(Build, is_unchanged_by_scaling_with_a_power_of_two) {
     const Bvh4 a = accel::build(m.mesh, {}), b = accel::build(scaled, {});
     ASSERT_EQ(a.nodes.size(), b.nodes.size());
     for (std::size_t n = 0; n < a.nodes.size(); ++n)
-      ASSERT_EQ(std::memcmp(a.nodes[n].child, b.nodes[n].child, sizeof a.nodes[n].child), 0) << "node " << n;
+      ASSERT_TRUE(std::equal(a.nodes[n].child, a.nodes[n].child + intersect::kLanes, b.nodes[n].child)) << "node " << n;
     for (std::size_t i = 0; i < a.triangles.size(); ++i) ASSERT_EQ(a.triangles[i].primitive, b.triangles[i].primitive);
   }
 }

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <cstring>
 #include <limits>
 #include <random>
 
 #include "model/accel/build.h"
 #include "model/base/error.h"
+#include "tests/accel/bits.h"
 #include "tests/accel/meshes.h"
 #include "tests/oracle/seed.h"
 
@@ -110,14 +110,8 @@ TEST(Image, gives_back_the_tree_it_was_made_of) {
     EXPECT_NO_THROW(accel::validate(image));
     const Bvh4 back = accel::decode(image);
     ASSERT_EQ(back.nodes.size(), bvh.nodes.size());
-    for (std::size_t n = 0; n < bvh.nodes.size(); ++n) {
-      ASSERT_EQ(std::memcmp(&back.nodes[n].boxes, &bvh.nodes[n].boxes, sizeof bvh.nodes[n].boxes), 0);
-      ASSERT_EQ(std::memcmp(back.nodes[n].child, bvh.nodes[n].child, sizeof bvh.nodes[n].child), 0);
-    }
-    ASSERT_EQ(back.triangles.size(), bvh.triangles.size());
-    EXPECT_EQ(
-        std::memcmp(back.triangles.data(), bvh.triangles.data(), bvh.triangles.size() * sizeof(accel::LeafTriangle)),
-        0);
+    for (std::size_t n = 0; n < bvh.nodes.size(); ++n) ASSERT_TRUE(test::same_node(back.nodes[n], bvh.nodes[n])) << n;
+    EXPECT_TRUE(test::same_triangles(back.triangles, bvh.triangles));
     EXPECT_EQ(back.depth, bvh.depth);
     EXPECT_EQ(back.lower, bvh.lower);
     EXPECT_EQ(back.upper, bvh.upper);
