@@ -121,6 +121,7 @@ class PlainEngine final : public Engine {
       next = kNever;
       for_each_stage(stages_, [&](auto& stage) { next = earlier(next, stage.next_event(now_)); });
       next = std::max(next, now_ + 1);
+      if (waves_ != nullptr && waves_->first() > now_) next = std::min(next, waves_->first());
     }
     now_ = std::min({next, until, last_moved_ + watchdog_});
   }

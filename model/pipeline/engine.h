@@ -26,10 +26,10 @@ struct EngineOptions {
   bool skip_idle = true;         ///< jump over cycles in which nothing can move
   bool reverse_order = false;    ///< step the stages from the last to the first: the same result, for tests
   bool keep_events = false;      ///< the event log keeps its events, for tests
-  Backpressure backpressure;
-  std::string waves_path;
+  Backpressure backpressure{};
+  std::string waves_path{};
   Cycle waves_first = 0, waves_last = 0;
-  std::function<void(std::uint64_t rays_done)> progress;
+  std::function<void(std::uint64_t rays_done)> progress{};
 };
 
 class Engine {

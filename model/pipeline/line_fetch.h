@@ -6,7 +6,7 @@
 //   out  done       contexts all of whose lines are there, in the order of completion
 //   A token taken in cycle t looks up its first line in t, and up to `ports` lines a cycle. When the last of n lines has
 //   been looked up, in cycle t + ceil(n / ports) - 1, and all of them hit, the data are read hit_latency cycles later, and
-//   the token leaves in the cycle behind that. A line that misses takes a miss register and goes to memory, or joins the
+//   the token leaves in the cycle behind that. One new line a cycle can be asked of memory. A line that misses takes a miss register and goes to memory, or joins the
 //   register that waits for the same line. A line that comes back takes the tag port for its cycle; contexts that waited
 //   for nothing else can leave in the next cycle, one a cycle, in turn by number.
 //   stalls: mshrs_full, memory_port_full, fill_port, output_full, memory
@@ -158,7 +158,8 @@ class LineFetch {
         ++counters_.merges;
       } else {
         if (mshrs_.full()) return Activity::MshrsFull;
-        if (!misses.can_push(now)) return Activity::MemoryPortFull;
+        if (last_request_ == now || !misses.can_push(now)) return Activity::MemoryPortFull;
+        last_request_ = now;
         number = mshrs_.allocate(line_);
         misses.push(now, {line_ << line_shift_, static_cast<std::uint16_t>(number), false});
       }
@@ -193,6 +194,7 @@ class LineFetch {
   bool active_ = false, looked_up_something_ = false;
   Slot slot_ = 0;
   LineNumber line_ = 0, last_line_ = 0;
+  Cycle last_request_ = kNever;
   std::array<Read, kMaxContexts> reading_{};
   std::uint32_t reading_head_ = 0, reading_tail_ = 0;
   std::array<accel::ChildRef, kMaxContexts> ref_of_{};

@@ -4,6 +4,7 @@
 // registers with registered valid and ready. One push and one pop a cycle at most.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 
 #include "model/pipeline/backpressure.h"
@@ -59,24 +60,34 @@ struct PlainWiring {
   }
 };
 
-/// The same over links that refuse as Backpressure says.
+/// The same over links that refuse as Backpressure says, and that watch over the rule of one push and one pop a cycle.
 struct StallingWiring {
   template <class T>
   struct In {
     Link<T>* link = nullptr;
     const Backpressure* backpressure = nullptr;
     int number = 0;
+    Cycle last_pop = kNever;
     bool can_pop(Cycle now) const { return link->can_pop(now) && !backpressure->refuses(number, Side::Pop, now); }
     const T& front() const { return link->front(); }
-    void pop(Cycle now) { link->pop(now); }
+    void pop(Cycle now) {
+      assert(last_pop != now && "one pop a cycle");
+      last_pop = now;
+      link->pop(now);
+    }
   };
   template <class T>
   struct Out {
     Link<T>* link = nullptr;
     const Backpressure* backpressure = nullptr;
     int number = 0;
+    Cycle last_push = kNever;
     bool can_push(Cycle now) const { return link->can_push(now) && !backpressure->refuses(number, Side::Push, now); }
-    void push(Cycle now, const T& value) { link->push(now, value); }
+    void push(Cycle now, const T& value) {
+      assert(last_push != now && "one push a cycle");
+      last_push = now;
+      link->push(now, value);
+    }
   };
   template <class Stage>
   using Holder = Stage;

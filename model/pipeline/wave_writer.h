@@ -18,6 +18,7 @@ class WaveWriter {
   WaveWriter(const WaveWriter&) = delete;
   WaveWriter& operator=(const WaveWriter&) = delete;
 
+  Cycle first() const { return first_; }
   bool wants(Cycle now) const { return now >= first_ && now <= last_; }
   /// The links as they are at the start of cycle `now`: to be called before the stages step.
   void sample_links(Cycle now);

@@ -1,0 +1,224 @@
+// The unit's time against closed forms: latency of a lonely ray, peak rates, bandwidth, Little's law, accounts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/pipeline/world.h"
+
+namespace ctu::test {
+namespace {
+
+using cull::Design;
+using pipeline::Cycle;
+using pipeline::UnitConfig;
+using pipeline::UnitResult;
+
+UnitConfig ideal(UnitConfig config) {
+  config.memory.model = pipeline::MemoryModel::Ideal;
+  return config;
+}
+
+Cycle lines_of(std::uint64_t address, std::uint64_t bytes, int line) {
+  const auto l = static_cast<std::uint64_t>(line);
+  return (address + bytes - 1) / l - address / l + 1;
+}
+
+/// Cycles from taking a token to the cycle in which it is handed on, all lines missing or all hitting.
+Cycle fetch_time(const UnitConfig& c, const pipeline::CacheConfig& cache, Cycle lines, bool miss) {
+  if (!miss) return (lines + static_cast<Cycle>(cache.ports) - 1) / static_cast<Cycle>(cache.ports) - 1 +
+                    static_cast<Cycle>(cache.hit_latency) + 1;
+  // The last line is asked for, waits for its turn, travels, is taken, and the ray leaves in the cycle behind that.
+  return 1 + (lines - 1) * static_cast<Cycle>(std::max(1, c.memory.interval)) + static_cast<Cycle>(c.memory.latency) + 1 + 1;
+}
+
+/// From the cycle in which a lonely ray takes its context to the cycle in which it is returned, for a root with one leaf.
+Cycle lonely_latency(const World& world, const UnitConfig& c, int triangles, bool miss) {
+  const Cycle hop = 1;  // a token is taken in the cycle behind the one in which it was handed on
+  const auto& image = world.image();
+  const Cycle node_lines = lines_of(image.node_address(0), image.node_stride_bytes, c.memory.line_bytes);
+  const Cycle leaf_lines = lines_of(image.triangle_address(0),
+                                    static_cast<std::uint64_t>(triangles) * image.triangle_stride_bytes, c.memory.line_bytes);
+  const auto n = [](int cycles) { return static_cast<Cycle>(cycles); };
+  Cycle mask_time = 0;
+  if (c.mask_test.design == Design::Comparators) mask_time = hop + n(c.comparators.latency) + hop + n(c.mask_test.latency);
+  else if (c.mask_test.design != Design::None) mask_time = hop + n(c.cell_locate.latency) + hop + n(c.mask_test.latency);
+  const Cycle scheduling = hop + 1;
+  Cycle time = n(c.ray_setup.interval - 1 + c.ray_setup.latency);
+  time += scheduling + hop + fetch_time(c, c.node_cache, node_lines, miss);
+  time += hop + n(c.box_test.latency) + mask_time + hop + n(c.child_sort.latency);
+  time += hop + 1;  // the stack forwards the nearest child
+  time += scheduling + hop + fetch_time(c, c.leaf_cache, leaf_lines, miss);
+  time += hop + n(triangles * c.triangle_test.interval - 1 + c.triangle_test.latency);
+  time += hop + n(c.hit_update.latency);
+  time += hop + 1;  // the stack finds nothing
+  return time + hop;
+}
+
+std::vector<UnitConfig> single_ray_configs(const World& world) {
+  std::vector<UnitConfig> configs(6, ideal(world.config()));
+  configs[1].memory.line_bytes = 64;
+  configs[1].box_test.latency = 1;
+  configs[1].child_sort.latency = 7;
+  configs[2].memory.latency = 400;
+  configs[2].memory.interval = 9;
+  configs[2].memory.line_bytes = 64;
+  configs[3].triangle_test.interval = 4;
+  configs[3].triangle_test.latency = 90;
+  configs[3].hit_update.latency = 1;
+  configs[4].ray_setup = {.latency = 3, .interval = 17};
+  configs[4].cell_locate.latency = 1;
+  configs[4].comparators.latency = 31;
+  configs[4].mask_test.latency = 5;
+  configs[5].node_cache.ports = 2;
+  configs[5].node_cache.hit_latency = 20;
+  configs[5].leaf_cache.hit_latency = 1;
+  configs[5].memory.line_bytes = 64;
+  for (UnitConfig& config : configs) config.unit.contexts = 1;
+  return configs;
+}
+
+TEST(Timing, a_lonely_ray_takes_exactly_the_sum_of_its_latencies_cold_and_warm) {
+  for (const Design design : {Design::None, Design::MaskLut, Design::Projection, Design::Comparators})
+    for (const int triangles : {1, 5}) {
+      // Two equal rays and one context: the second starts when the first is gone, with warm caches.
+      World world(stacked_leaves(1, triangles), design, {ray_through_leaves(), ray_through_leaves()});
+      int number = 0;
+      for (const UnitConfig& config : single_ray_configs(world))
+        for (const bool exec : {false, true}) {
+          SCOPED_TRACE(std::string(cull::to_string(design)) + ", config " + std::to_string(number++ / 2));
+          const UnitResult result = world.run(config, {.exec = exec});
+          EXPECT_EQ(result.ray_latency_sum, lonely_latency(world, config, triangles, true) +
+                                                lonely_latency(world, config, triangles, false));
+          EXPECT_EQ(result.wrong_hits, 0u);
+        }
+    }
+}
+
+TEST(Timing, a_ray_that_the_unit_does_not_accept_takes_its_set_up_and_two_hops) {
+  intersect::Ray invalid;
+  World world(stacked_leaves(1, 1), Design::None, {invalid});
+  UnitConfig config = ideal(world.config());
+  const UnitResult result = world.run(config);
+  EXPECT_EQ(result.ray_latency_sum, static_cast<Cycle>(config.ray_setup.interval - 1 + config.ray_setup.latency + 1));
+  EXPECT_EQ(result.cycles, result.ray_latency_sum + 1);
+  EXPECT_EQ(result.counts.node_visits, 0u);
+}
+
+/// A small scene that fits the caches, and a unit that is wide everywhere.
+World& small_world() {
+  static World world("gen:tilted-quads?quads=40", Design::None, 2000);
+  return world;
+}
+UnitConfig wide(UnitConfig config) {
+  config = ideal(config);
+  config.unit.contexts = 256;
+  config.ray_setup.interval = 1;
+  config.node_cache.ports = config.leaf_cache.ports = 8;
+  config.stack.push_width = 3;
+  return config;
+}
+
+TEST(Timing, the_slowest_stage_sets_the_pace_and_is_never_outrun) {
+  World& world = small_world();
+  const reference::Counts counts = world.counts();
+  const auto pace = [&](UnitConfig config, std::uint64_t bound) {
+    const UnitResult result = world.run(config);
+    EXPECT_GE(result.cycles, bound);
+    EXPECT_LE(static_cast<double>(result.cycles), 1.05 * static_cast<double>(bound) + 1500);
+  };
+  UnitConfig config = wide(world.config());
+  config.triangle_test.interval = 100;
+  pace(config, counts.triangle_tests * 100);
+  config = wide(world.config());
+  config.result.interval = 200;
+  pace(config, (counts.rays - 1) * 200);
+  config = wide(world.config());
+  config.ray_setup.interval = 90;
+  pace(config, counts.rays * 90);
+  // Everything at one a cycle: the scheduler's issues are the bound.
+  config = wide(world.config());
+  pace(config, counts.node_visits + counts.leaf_visits);
+}
+
+TEST(Timing, memory_bandwidth_bounds_a_unit_without_caches) {
+  World& world = small_world();
+  UnitConfig config = wide(world.config());
+  config.node_cache.bytes = config.leaf_cache.bytes = 0;
+  config.node_cache.mshrs = config.leaf_cache.mshrs = 64;
+  config.memory.interval = 16;
+  const UnitResult result = world.run(config);
+  const std::uint64_t lines = counter(result, "memory.node_requests") + counter(result, "memory.leaf_requests");
+  EXPECT_GE(result.cycles, lines * 16);
+  EXPECT_LE(static_cast<double>(result.cycles), 1.02 * static_cast<double>(lines * 16) + 1500);
+}
+
+TEST(Timing, latency_sum_equals_the_occupied_contexts_summed_over_cycles) {
+  World world("gen:hair-ball?strands=60", Design::Projection, 300);
+  const auto engine = world.engine(world.config(), {});
+  std::uint64_t occupied = 0;
+  Cycle next = 1;
+  while (!engine->advance(next)) {
+    occupied += static_cast<std::uint64_t>(engine->occupied_contexts());
+    ++next;
+  }
+  const UnitResult result = engine->result();
+  EXPECT_EQ(occupied, result.ray_latency_sum);
+  EXPECT_EQ(counter(result, "contexts.occupied_cycles"), result.ray_latency_sum);
+  EXPECT_EQ(world.run(world.config()).cycles, result.cycles) << "a cycle at a time is the same as at once";
+}
+
+TEST(Timing, every_cycle_of_every_stage_and_of_every_ray_is_accounted_for) {
+  for (const Design design : {Design::None, Design::MaskLut, Design::Projection, Design::Comparators}) {
+    World world("gen:foliage?twigs=10", design, 400);
+    for (const bool small : {false, true}) {
+      UnitConfig config = world.config();
+      if (small) {
+        config.node_cache.bytes = config.leaf_cache.bytes = 2048;
+        config.node_cache.mshrs = config.leaf_cache.mshrs = 2;
+        config.stack = {.entries = 2, .push_width = 1, .spill_batch = 2};
+        config.mask_test.banks = 1;
+      }
+      const UnitResult result = world.run(config);
+      EXPECT_EQ(result.stages.size(), design == Design::None ? 11u : 13u);
+      for (const auto& stage : result.stages) {
+        std::uint64_t cycles = stage.busy + stage.idle;
+        for (const auto& cause : stage.stalled) cycles += cause.cycles;
+        EXPECT_EQ(cycles, result.cycles) << stage.stage;
+      }
+      std::uint64_t ray_cycles = 0;
+      for (const auto& cause : result.ray_cycles) ray_cycles += cause.cycles;
+      EXPECT_EQ(ray_cycles, result.ray_latency_sum);
+    }
+  }
+}
+
+TEST(Timing, bank_conflicts_cost_the_extra_turns_and_are_charged_as_such) {
+  // Four lanes hit at once by the same ray in equal boxes ask for the same row: no conflict, whatever the banks.
+  World same(stacked_leaves(4, 1), Design::MaskLut, {ray_through_leaves()});
+  UnitConfig config = ideal(same.config());
+  config.mask_test.banks = 1;
+  const UnitResult shared = same.run(config);
+  EXPECT_EQ(counter(shared, "mask_test.reads") + counter(shared, "mask_test.shared_reads") + shared.counts.uncertain, 4u);
+  const auto conflicts = [](const UnitResult& result) {
+    for (const auto& stage : result.stages)
+      if (stage.stage == "mask_test")
+        for (const auto& cause : stage.stalled)
+          if (cause.name == "bank_conflict") return cause.cycles;
+    return std::uint64_t{0};
+  };
+  EXPECT_EQ(conflicts(shared), 0u);
+  // A single projection table with one port serves the three reads of a certain lane in three turns.
+  World single(stacked_leaves(1, 1), Design::Projection, {ray_through_leaves()});
+  config = ideal(single.config());
+  config.mask_test.banks = 1;
+  config.mask_test.projection_tables = 1;
+  const UnitResult one_table = single.run(config);
+  config.mask_test.projection_tables = 3;
+  const UnitResult three_tables = single.run(config);
+  const std::uint64_t extra = counter(one_table, "mask_test.reads") - (counter(one_table, "mask_test.reads") > 0 ? 1 : 0);
+  EXPECT_EQ(conflicts(one_table), extra);
+  EXPECT_EQ(one_table.cycles, three_tables.cycles + extra);
+}
+
+}  // namespace
+}  // namespace ctu::test

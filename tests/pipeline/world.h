@@ -1,0 +1,67 @@
+// A scene with everything a unit works on, and rays recorded for it; small enough for thousands of runs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/accel/bvh4.h"
+#include "model/accel/image.h"
+#include "model/cull/mask_test.h"
+#include "model/pipeline/engine.h"
+#include "model/reference/ray_block.h"
+
+namespace ctu::test {
+
+class VectorFeed : public reference::RayFeed {
+ public:
+  explicit VectorFeed(const std::vector<std::shared_ptr<const reference::RayBlock>>& blocks) : blocks_(blocks) {}
+  std::shared_ptr<const reference::RayBlock> next() override {
+    return next_ < blocks_.size() ? blocks_[next_++] : nullptr;
+  }
+  std::uint64_t total_rays() const override;
+
+ private:
+  const std::vector<std::shared_ptr<const reference::RayBlock>>& blocks_;
+  std::size_t next_ = 0;
+};
+
+class World {
+ public:
+  /// `rays` lines through the scene: three in four closest-hit, one in four any-hit, one in 50 invalid.
+  World(const std::string& scene, cull::Design design, int rays);
+  World(accel::Bvh4 tree, cull::Design design, const std::vector<intersect::Ray>& rays);
+
+  pipeline::UnitConfig config() const;  ///< defaults with the world's design
+  std::unique_ptr<pipeline::Engine> engine(const pipeline::UnitConfig& config, const pipeline::EngineOptions& options);
+  pipeline::UnitResult run(const pipeline::UnitConfig& config, const pipeline::EngineOptions& options = {});
+
+  const accel::Image& image() const { return image_; }
+  const cull::MaskTester& tester() const { return tester_; }
+  const std::vector<std::shared_ptr<const reference::RayBlock>>& blocks() const { return blocks_; }
+  reference::Counts counts() const;
+  std::uint64_t rays() const { return rays_; }
+  /// The same rays without their recorded steps.
+  void forget_steps();
+
+ private:
+  void record(const std::vector<intersect::Ray>& rays);
+
+  accel::Bvh4 tree_;
+  cull::MaskTester tester_;
+  cull::ObjectMasks masks_;
+  accel::Image image_;
+  std::vector<std::shared_ptr<const reference::RayBlock>> blocks_;
+  std::vector<std::unique_ptr<VectorFeed>> feeds_;
+  std::uint64_t rays_ = 0;
+};
+
+/// A root with `lanes` leaves, all at the same place, and `triangles` of one leaf: a ray along +z from below meets them all.
+accel::Bvh4 stacked_leaves(int lanes, int triangles);
+/// A ray that meets every box and triangle of stacked_leaves().
+intersect::Ray ray_through_leaves();
+
+std::uint64_t counter(const pipeline::UnitResult& result, const std::string& name);
+
+}  // namespace ctu::test
