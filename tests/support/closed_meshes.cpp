@@ -95,4 +95,18 @@ scene::Mesh moved(scene::Mesh mesh, const Vec3& offset) {
   return mesh;
 }
 
+ClosedMesh closed_sphere(int levels) { return {icosphere(levels), {0, 0, 0}, 0.98}; }
+ClosedMesh closed_cube(int n) { return {lattice_cube(n), {0, 0, 0}, 1}; }
+
+ClosedMesh moved(const ClosedMesh& closed) {
+  const Vec3 far_away{1000, 2000, -3000};
+  return {moved(closed.mesh, far_away), far_away, closed.size};
+}
+
+ClosedMesh scaled(ClosedMesh closed, float factor) {
+  for (Vec3& v : closed.mesh.vertices) v = {v.x * factor, v.y * factor, v.z * factor};
+  closed.size *= factor;
+  return closed;
+}
+
 }  // namespace ctu::test
