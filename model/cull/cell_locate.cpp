@@ -6,8 +6,14 @@
 // holds every closed cell that geometry touches, hence the floor cell of any hit: their AND is not empty.
 // (The points at t0 and t1 alone would not do: they may lie outside the box by rounding, and the sweep between
 // clamped cells need not cover the segment between points outside of them.)
+//
+// A column. Where rounding leaves candidates on one axis only, and the overlap stays in one certain cell of each other
+// axis, the key runs from the first candidate to the last: the sweep between them is just that column of cells, which
+// holds the overlap whatever the truth is. It is what keeps boxes a few units in the last place thick (walls, floors)
+// from being passed always.
 #include "model/cull/cell_locate.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "model/cull/plane_times.h"
@@ -20,9 +26,10 @@ struct Range {
   float down, up;
 };
 
-struct Cell {
-  int index;
-  bool certain;  ///< the same for every value of the range
+/// The cells that some value of a range lies in.
+struct Cells {
+  int first, last;
+  bool certain() const { return first == last; }
 };
 
 /// The inner planes of one axis in the order of ray time (or of position, on an axis without motion); `Groups` of four.
@@ -36,9 +43,9 @@ class Planes {
     }
   }
 
-  /// The floor cell of the point at `value`: the planes at or below it. Going up, a plane is below from the moment it
+  /// The floor cells of the points at `value`: as many as planes at or below. Going up, a plane is below from the moment it
   /// is met on; going down, until after it is met.
-  Cell cell_at(Range value, bool descending) const {
+  Cells cells_at(Range value, bool descending) const {
     const numeric::Mask4 passed_when_met = numeric::splat(descending ? 0 : -1);
     const Float4 down = numeric::splat(value.down), up = numeric::splat(value.up);
     unsigned passed = 0, ahead = 0;
@@ -48,13 +55,57 @@ class Planes {
     }
     // An undecided plane is in neither set; so would a NaN be.
     const int below = std::popcount((descending ? ahead : passed) & inner_);
-    return {below, ((passed | ahead) & inner_) == inner_};
+    return {below, below + std::popcount(~(passed | ahead) & inner_)};
   }
 
  private:
   unsigned inner_;
   Float4 down_[Groups], up_[Groups];
 };
+
+/// One axis of the box: where the overlap may begin and end.
+struct AxisCells {
+  Cells begin{0, 0}, end{0, 0};
+  bool certain() const { return begin.certain() && end.certain(); }
+  bool one_cell() const { return certain() && begin.first == end.first; }
+  /// All candidates.
+  Cells span() const { return {std::min(begin.first, end.first), std::max(begin.last, end.last)}; }
+};
+
+template <int Groups>
+AxisCells locate_axis(const intersect::PreparedRay& ray, const intersect::SlabTimes& times, const intersect::Box4& boxes,
+                      int lane, int ray_resolution, int axis, Range entry, Range exit) {
+  const float lo = boxes.lo[axis][lane], hi = boxes.hi[axis][lane];
+  // A flat box has one layer that the object mask repeats in every cell of the axis: any cell will do.
+  if (lo == hi) return {};
+  const LerpWeights& weights = lerp_weights(ray_resolution);
+  if ((ray.zero_axes >> axis & 1) != 0) {
+    const float position = ray.ray.origin[axis];
+    const Cells cells = Planes<Groups>(weights, ray_resolution, {lo, lo}, {hi, hi}).cells_at({position, position}, false);
+    return {cells, cells};
+  }
+  const Planes<Groups> planes(weights, ray_resolution, {times.near_down[axis][lane], times.near_up[axis][lane]},
+                              {times.far_down[axis][lane], times.far_up[axis][lane]});
+  const bool descending = (ray.negative_axes >> axis & 1) != 0;
+  return {planes.cells_at(entry, descending), planes.cells_at(exit, descending)};
+}
+
+CellKey pack(const AxisCells (&axes)[3]) {
+  int undecided = 0, undecided_axis = 0, several_cells = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!axes[axis].certain()) undecided_axis = axis, ++undecided;
+    if (!axes[axis].one_cell()) ++several_cells;
+  }
+  CellKey key;
+  for (int axis = 0; axis < 3; ++axis) {
+    Cells begin_end{axes[axis].begin.first, axes[axis].end.first};
+    if (undecided == 1 && several_cells == 1 && axis == undecided_axis) begin_end = axes[axis].span();
+    key.packed |= static_cast<std::uint32_t>(begin_end.first) << (4 * axis);
+    key.packed |= static_cast<std::uint32_t>(begin_end.last) << (12 + 4 * axis);
+  }
+  if (undecided > 0 && several_cells > 1) key.packed |= CellKey::kUncertain;
+  return key;
+}
 
 template <int Groups>
 CellKey locate(const intersect::PreparedRay& ray, const intersect::SlabTimes& times, const intersect::Box4& boxes,
@@ -64,29 +115,10 @@ CellKey locate(const intersect::PreparedRay& ray, const intersect::SlabTimes& ti
     entry.up = times.near_up[axis][lane] > entry.up ? times.near_up[axis][lane] : entry.up;
     exit.down = times.far_down[axis][lane] < exit.down ? times.far_down[axis][lane] : exit.down;
   }
-
-  const LerpWeights& weights = lerp_weights(ray_resolution);
-  CellKey key;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float lo = boxes.lo[axis][lane], hi = boxes.hi[axis][lane];
-    // A flat box has one layer that the object mask repeats in every cell of the axis: any cell will do.
-    if (lo == hi) continue;
-    Cell begin, end;
-    if ((ray.zero_axes >> axis & 1) != 0) {
-      const float position = ray.ray.origin[axis];
-      begin = end = Planes<Groups>(weights, ray_resolution, {lo, lo}, {hi, hi}).cell_at({position, position}, false);
-    } else {
-      const Planes<Groups> planes(weights, ray_resolution, {times.near_down[axis][lane], times.near_up[axis][lane]},
-                                  {times.far_down[axis][lane], times.far_up[axis][lane]});
-      const bool descending = (ray.negative_axes >> axis & 1) != 0;
-      begin = planes.cell_at(entry, descending);
-      end = planes.cell_at(exit, descending);
-    }
-    key.packed |= static_cast<std::uint32_t>(begin.index) << (4 * axis);
-    key.packed |= static_cast<std::uint32_t>(end.index) << (12 + 4 * axis);
-    if (!begin.certain || !end.certain) key.packed |= CellKey::kUncertain;
-  }
-  return key;
+  const AxisCells axes[3] = {locate_axis<Groups>(ray, times, boxes, lane, ray_resolution, 0, entry, exit),
+                             locate_axis<Groups>(ray, times, boxes, lane, ray_resolution, 1, entry, exit),
+                             locate_axis<Groups>(ray, times, boxes, lane, ray_resolution, 2, entry, exit)};
+  return pack(axes);
 }
 
 }  // namespace

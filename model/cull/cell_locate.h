@@ -9,7 +9,7 @@
 namespace ctu::cull {
 
 /// Begin and end cell, 4 bits each: begin x,y,z in bits 0..11, end x,y,z in bits 12..23. Bit 31: rounding leaves
-/// more than one candidate for some cell, so the key proves nothing and the child must be passed.
+/// more candidates than a key can hold, so it proves nothing and the child must be passed.
 struct CellKey {
   std::uint32_t packed = 0;
   static constexpr std::uint32_t kUncertain = 1u << 31;
@@ -19,7 +19,7 @@ struct CellKey {
 };
 
 /// For a lane that the slab test hit: the half-open (floor) cells of the points at t0 and t1 in an
-/// R_ray^3 grid over the box, clamped to the grid.
+/// R_ray^3 grid over the box, clamped to the grid; or, where only one axis leaves a doubt, a column of cells that holds both.
 CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTimes& times, const intersect::Box4& boxes,
                     int lane, int ray_resolution);
 

@@ -50,4 +50,18 @@ ExactOverlap exact_overlap_cells(const intersect::Ray& ray, const Vec3& lo, cons
   return {true, cell_at(ray, lo, hi, resolution, from), cell_at(ray, lo, hi, resolution, to)};
 }
 
+bool holds(cull::CellKey key, const CellIndex& first, const CellIndex& last) {
+  bool named = true;
+  int long_axes = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int begin = key.begin(axis), end = key.end(axis);
+    named &= begin == first.of[axis] && end == last.of[axis];
+    if (!named && (std::min(first.of[axis], last.of[axis]) < std::min(begin, end) ||
+                   std::max(first.of[axis], last.of[axis]) > std::max(begin, end)))
+      return false;
+    long_axes += begin != end;
+  }
+  return named || long_axes <= 1;
+}
+
 }  // namespace ctu::test

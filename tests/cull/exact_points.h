@@ -1,6 +1,7 @@
 // In exact arithmetic: the floor cells of the first and last points that a ray and a box share.
 #pragma once
 
+#include "model/cull/cell_locate.h"
 #include "model/intersect/ray.h"
 
 namespace ctu::test {
@@ -19,5 +20,9 @@ struct ExactOverlap {
 };
 ExactOverlap exact_overlap_cells(const intersect::Ray& ray, const Vec3& lo, const Vec3& hi, int resolution, float tmin,
                                  float tmax);
+
+/// Whether the sweep from the key's begin to its end holds the points of both cells for certain: the key names them, or it is
+/// a column of cells along one axis that has both in it.
+bool holds(cull::CellKey key, const CellIndex& first, const CellIndex& last);
 
 }  // namespace ctu::test
