@@ -16,39 +16,33 @@
 namespace ctu::pipeline {
 namespace {
 
-/// Joins ports by plain links and keeps these.
+/// Joins ports and lists the links.
 class PlainLinks {
  public:
   explicit PlainLinks(const Backpressure& backpressure) : backpressure_(backpressure) {}
 
   template <class T>
   void join(const char* name, PlainWiring::Out<T>& out, PlainWiring::In<T>& in) {
-    out.link = in.link = add<T>(name);
+    out.link = &in.link;
+    list(name, out, in);
   }
   template <class T>
   void join(const char* name, StallingWiring::Out<T>& out, StallingWiring::In<T>& in) {
-    const int number = static_cast<int>(probes_.links.size());
-    out.number = in.number = number;
+    out.link = &in.link;
+    out.number = in.number = static_cast<int>(probes_.links.size());
     out.backpressure = in.backpressure = &backpressure_;
-    out.link = in.link = add<T>(name);
-    probes_.links.back().valid = [&in](Cycle now) { return in.can_pop(now); };
-    probes_.links.back().ready = [&out](Cycle now) { return out.can_push(now); };
+    list(name, out, in);
   }
   Probes& probes() { return probes_; }
 
  private:
-  template <class T>
-  Link<T>* add(const char* name) {
-    auto link = std::make_shared<Link<T>>();
-    Link<T>* raw = link.get();
-    owned_.push_back(std::move(link));
-    probes_.links.push_back({name, [raw](Cycle now) { return raw->can_pop(now); },
-                             [raw](Cycle now) { return raw->can_push(now); }, [raw] { return raw->occupancy(); }});
-    return raw;
+  template <class Out, class In>
+  void list(const char* name, Out& out, In& in) {
+    probes_.links.push_back({name, [&in](Cycle now) { return in.can_pop(now); },
+                             [&out](Cycle now) { return out.can_push(now); }, [&in] { return in.link.occupancy(); }});
   }
 
   Backpressure backpressure_;
-  std::vector<std::shared_ptr<void>> owned_;
   Probes probes_;
 };
 

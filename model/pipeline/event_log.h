@@ -27,9 +27,10 @@ class EventLog {
   explicit EventLog(bool keep_events = false) : keep_events_(keep_events) {}
 
   void add(const Event& event) {
-    const std::uint64_t what = mix64(std::bit_cast<std::uint64_t>(event.step) + (event.is_return ? kReturnSalt : 0));
-    timed_hash_ += mix64(what ^ mix64(event.ray) ^ mix64(~event.cycle));
-    untimed_hash_ += mix64(what ^ mix64(event.ray) ^ mix64(~std::uint64_t{event.visit}));
+    const std::uint64_t what = (std::bit_cast<std::uint64_t>(event.step) ^ (event.is_return ? kReturn : 0)) * 0x9E3779B97F4A7C15ull +
+                               event.ray * 0xD1B54A32D192ED03ull;
+    timed_hash_ += mix64(what ^ event.cycle * 0x8CB92BA72F3D8DD7ull);
+    untimed_hash_ += mix64(what ^ event.visit * 0xAEF17502108EF2D9ull);
     if (keep_events_) events_.push_back(event);
   }
 
@@ -38,7 +39,7 @@ class EventLog {
   const std::vector<Event>& events() const { return events_; }
 
  private:
-  static constexpr std::uint64_t kReturnSalt = 0x5851F42D4C957F2Dull;
+  static constexpr std::uint64_t kReturn = 0x5851F42D4C957F2Dull;
   bool keep_events_;
   std::uint64_t timed_hash_ = 0, untimed_hash_ = 0;
   std::vector<Event> events_;

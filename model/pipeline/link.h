@@ -38,12 +38,13 @@ class Link {
 /// How stages and links are joined. A stage names its ports Wiring::In<T> and Wiring::Out<T> and knows nothing else, so
 /// the same stage runs over plain links, over links that refuse at random, and over SystemC signals (model/unit).
 struct PlainWiring {
+  /// The link lies within the stage that pops it: one pointer less to follow each cycle.
   template <class T>
   struct In {
-    Link<T>* link = nullptr;
-    bool can_pop(Cycle now) const { return link->can_pop(now); }
-    const T& front() const { return link->front(); }
-    void pop(Cycle now) { link->pop(now); }
+    Link<T> link;
+    bool can_pop(Cycle now) const { return link.can_pop(now); }
+    const T& front() const { return link.front(); }
+    void pop(Cycle now) { link.pop(now); }
   };
   template <class T>
   struct Out {
@@ -64,16 +65,16 @@ struct PlainWiring {
 struct StallingWiring {
   template <class T>
   struct In {
-    Link<T>* link = nullptr;
+    Link<T> link;
     const Backpressure* backpressure = nullptr;
     int number = 0;
     Cycle last_pop = kNever;
-    bool can_pop(Cycle now) const { return link->can_pop(now) && !backpressure->refuses(number, Side::Pop, now); }
-    const T& front() const { return link->front(); }
+    bool can_pop(Cycle now) const { return link.can_pop(now) && !backpressure->refuses(number, Side::Pop, now); }
+    const T& front() const { return link.front(); }
     void pop(Cycle now) {
       assert(last_pop != now && "one pop a cycle");
       last_pop = now;
-      link->pop(now);
+      link.pop(now);
     }
   };
   template <class T>

@@ -34,6 +34,7 @@ void BankedMemory::accept(Cycle now, const ClientRequest& request) {
   const auto bank = static_cast<std::uint32_t>((block ^ row) & (banks - 1));
   channels_[channel_of(request.request.address)].queue.push_back({request, now, bank, row});
   ++waiting_;
+  find_next_decision();
   if (!request.request.write) ++unanswered_;
   ++(request.request.write ? counters_.writes : counters_.reads);
 }
@@ -84,6 +85,7 @@ void BankedMemory::serve(Channel& channel, std::size_t chosen, Cycle now) {
   const std::size_t place = (channel.first_answer + channel.answer_count++) % channel.answers.size();
   channel.answers[place] = {{waiting.request.client, waiting.request.request.id},
                             data + burst + static_cast<Cycle>(config_.front_latency)};
+  find_next_answer();
 }
 
 void BankedMemory::refresh_until(Channel& channel, Cycle now) {
@@ -104,27 +106,30 @@ Cycle BankedMemory::decision_time(const Channel& channel) const {
 }
 
 bool BankedMemory::work(Cycle now) {
-  if (waiting_ == 0) return false;
-  bool decided = false;
+  if (next_decision_ > now) return false;
   for (Channel& channel : channels_) {
     if (channel.queue.empty() || decision_time(channel) > now) continue;
     refresh_until(channel, now);
     serve(channel, choose(channel, now), now);
-    decided = true;
   }
-  return decided;
+  find_next_decision();
+  return true;
 }
 
-bool BankedMemory::find_answer(Cycle now) {
-  if (unanswered_ == 0) return false;
-  Cycle earliest = kNever;
+void BankedMemory::find_next_decision() {
+  next_decision_ = kNever;
+  for (const Channel& channel : channels_)
+    if (!channel.queue.empty()) next_decision_ = std::min(next_decision_, decision_time(channel));
+}
+
+void BankedMemory::find_next_answer() {
+  next_answer_ = kNever;
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     const Channel& channel = channels_[c];
-    if (channel.answer_count == 0 || channel.answers[channel.first_answer].due >= earliest) continue;
-    earliest = channel.answers[channel.first_answer].due;
+    if (channel.answer_count == 0 || channel.answers[channel.first_answer].due >= next_answer_) continue;
+    next_answer_ = channel.answers[channel.first_answer].due;
     answering_ = c;
   }
-  return earliest <= now;
 }
 
 void BankedMemory::take_answer() {
@@ -132,16 +137,9 @@ void BankedMemory::take_answer() {
   channel.first_answer = (channel.first_answer + 1) % channel.answers.size();
   --channel.answer_count;
   --unanswered_;
+  find_next_answer();
 }
 
-Cycle BankedMemory::next_event(Cycle now) const {
-  if (waiting_ == 0 && unanswered_ == 0) return kNever;
-  Cycle next = kNever;
-  for (const Channel& channel : channels_) {
-    if (!channel.queue.empty()) next = earlier(next, std::max(decision_time(channel), now + 1));
-    if (channel.answer_count > 0) next = earlier(next, std::max(channel.answers[channel.first_answer].due, now + 1));
-  }
-  return next;
-}
+Cycle BankedMemory::next_event(Cycle now) const { return std::max(std::min(next_decision_, next_answer_), now + 1); }
 
 }  // namespace ctu::pipeline

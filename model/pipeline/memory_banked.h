@@ -25,7 +25,7 @@ class BankedMemory {
   void accept(Cycle now, const ClientRequest& request);
   /// One cycle: each channel decides about its next data slot if it is time to. Whether one did.
   bool work(Cycle now);
-  bool answer_ready(Cycle now) { return find_answer(now); }
+  bool answer_ready(Cycle now) const { return next_answer_ <= now; }
   const ClientAnswer& answer() const { return channels_[answering_].answers[channels_[answering_].first_answer].answer; }
   void take_answer();
   Cycle next_event(Cycle now) const;
@@ -67,7 +67,8 @@ class BankedMemory {
   void serve(Channel& channel, std::size_t chosen, Cycle now);
   void refresh_until(Channel& channel, Cycle now);
   Cycle decision_time(const Channel& channel) const;
-  bool find_answer(Cycle now);
+  void find_next_answer();
+  void find_next_decision();
 
   MemoryConfig config_;
   int line_shift_;
@@ -77,6 +78,7 @@ class BankedMemory {
   std::vector<Channel> channels_;
   std::size_t answering_ = 0;
   std::size_t waiting_ = 0, unanswered_ = 0;
+  Cycle next_answer_ = kNever, next_decision_ = kNever;  ///< earliest over the channels
   Counters counters_;
 };
 

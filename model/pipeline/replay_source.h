@@ -44,10 +44,7 @@ class ReplaySource {
   /// A visit begins.
   void visit(Slot slot, accel::ChildRef ref) {
     const Registers& r = registers_[slot];
-    if (r.step == r.end) throw_event_mismatch(contexts_[slot], "the unit visits more than was recorded");
-    if (r.step->ref != ref || r.drops_left != 0)
-      throw_event_mismatch(contexts_[slot], "the unit visits " + std::to_string(ref) + ", recorded is " +
-                                                std::to_string(r.step->ref));
+    if (r.step == r.end || r.step->ref != ref || r.drops_left != 0) [[unlikely]] refuse_visit(slot, ref);
   }
 
   std::uint8_t box_test(Slot slot, accel::ChildRef) { return static_cast<std::uint8_t>(registers_[slot].step->box_hits()); }
@@ -118,6 +115,14 @@ class ReplaySource {
   std::uint64_t event_mismatches() const { return 0; }
 
  private:
+  [[noreturn, gnu::cold, gnu::noinline]] void refuse_visit(Slot slot, accel::ChildRef ref) const {
+    const Registers& r = registers_[slot];
+    if (r.step == r.end) throw_event_mismatch(contexts_[slot], "the unit visits more than was recorded");
+    throw_event_mismatch(contexts_[slot], "the unit visits " + std::to_string(ref) + " after " +
+                                              std::to_string(r.drops_left) + " drops too few, recorded is " +
+                                              std::to_string(r.step->ref));
+  }
+
   struct Registers {
     const reference::Step *step = nullptr, *end = nullptr;
     const std::uint32_t *key = nullptr, *key_end = nullptr;

@@ -190,7 +190,7 @@ class TraversalStack {
       begin(now, token.slot, token.finished ? Job::Finish : Job::Pop);
       if (!token.finished) source_.begin_pop(slot_);
     } else {
-      if (!can_spill_ || !refills.can_pop(now)) return false;
+      if (!refills.can_pop(now)) return false;
       const auto slot = static_cast<Slot>(refills.front().id);
       refills.pop(now);
       contexts_[slot].spilled = static_cast<std::uint16_t>(contexts_[slot].spilled - spill_batch_);
