@@ -1,13 +1,11 @@
-// The fast tracer beside Embree in robust mode, on generated and on real scenes. Two rounded tests differ where a ray
+// The fast tracer and the reference traversal beside Embree in robust mode, on generated and on real scenes. Two rounded tests differ where a ray
 // grazes an edge or lies almost in a triangle's plane; there the exact oracle judges. A triangle that it says is hit
 // may be missing from ours only where triangle_test, asked about it alone, rounds the ray past a free edge or puts its
-// t farther away (closed meshes stay closed): the boxes in front must not lose what triangle_test accepts. Real scenes
-// are those in the folder CTU_SCENES (else ../shared/scenes beside the repository); without it they are skipped.
+// t farther away (closed meshes stay closed): the boxes in front must not lose what triangle_test accepts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -16,11 +14,13 @@
 #include "model/intersect/triangle_test.h"
 #include "model/numeric/round.h"
 #include "model/reference/closest_hit.h"
+#include "model/reference/traversal.h"
 #include "model/scene/load.h"
 #include "tests/oracle/exact_triangle.h"
 #include "tests/oracle/seed.h"
 #include "tests/reference/embree_scene.h"
 #include "tests/reference/rays.h"
+#include "tests/support/real_scenes.h"
 
 namespace {
 
@@ -67,7 +67,11 @@ double distance_to_segment(const Double3& a, const Double3& b) {
 class Comparison {
  public:
   explicit Comparison(const scene::Scene& scene)
-      : scene_(scene), bvh_(accel::build(scene.mesh, {})), tracer_(bvh_), embree_(scene.mesh, true) {
+      : scene_(scene),
+        bvh_(accel::build(scene.mesh, {})),
+        tracer_(bvh_),
+        traversal_(bvh_, nullptr, no_culling_),
+        embree_(scene.mesh, true) {
     embree_.commit();
   }
 
@@ -78,6 +82,7 @@ class Comparison {
       const Hit ours = tracer_.closest(ray), theirs = embree_.closest(ray);
       ++rays_;
       hits_ += is_hit(ours);
+      expect_the_reference_agrees(ray, ours);
       if (agree(ray, ours, theirs)) continue;
       ++disagreements_;
       judge(ray, ours, theirs);
@@ -98,6 +103,13 @@ class Comparison {
   }
 
  private:
+  /// The reference's exact boxes may skip what only rounding hits: a triangle that the ray grazes.
+  void expect_the_reference_agrees(const Ray& ray, const Hit& ours) const {
+    const Hit walked = traversal_.trace(ray);
+    if (same_bits(ours, walked)) return;
+    EXPECT_TRUE(is_hit(ours) && grazes(ray, ours.primitive)) << "the reference differs\n" << describe(ray, walked, ours);
+  }
+
   /// The largest coordinate of a vertex, seen from the origin.
   double reach(const Ray& ray) const {
     double reach = 0;
@@ -162,6 +174,8 @@ class Comparison {
   const scene::Scene& scene_;
   accel::Bvh4 bvh_;
   reference::FastTracer tracer_;
+  cull::MaskTester no_culling_{cull::Design::None, {}};
+  reference::Traversal traversal_;
   test::EmbreeScene embree_;
   std::size_t rays_ = 0, hits_ = 0, disagreements_ = 0;
 };
@@ -189,19 +203,18 @@ INSTANTIATE_TEST_SUITE_P(EmbreeHits, GeneratedScene,
 class RealScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealScene, is_hit_as_by_embree_or_the_exact_oracle_says_why_not) {
-  const char* const given = std::getenv("CTU_SCENES");
-  const std::filesystem::path folder = given != nullptr
-                                           ? std::filesystem::path(given)
-                                           : std::filesystem::path(CTU_REPOSITORY).parent_path() / "shared/scenes";
-  const std::filesystem::path file = folder / GetParam();
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file << ": set CTU_SCENES to the folder of the scenes";
-  compare(scene::load(file.string()));
+  const std::filesystem::path folder = test::unpacked_scenes();
+  if (folder.empty()) GTEST_SKIP() << "no shared scenes: set CTU_SCENES to their folder";
+  compare(scene::load((folder / GetParam()).string()));
 }
 
 INSTANTIATE_TEST_SUITE_P(EmbreeHits, RealScene,
                          testing::Values("bunny/bunny.ply.zst", "buddha/buddha.ply.zst", "sponza/sponza.obj.zst",
                                          "tetra/tetra.nff", "small-pine/scene.gltf",
                                          "dutch-ship/dutch_ship_medium_1k.gltf", "straight-hair/straight.hair.zst",
-                                         "ratboy-mohawk/Ratboy_mohawk.tfx.zst"));
+                                         "ratboy-mohawk/Ratboy_mohawk.tfx.zst", "kitchen/scene.pbrt",
+                                         "bathroom/bathroom.pbrt", "breakfast/breakfast.pbrt",
+                                         "classroom/classroom.scn", "coffee-maker/scene.pbrt",
+                                         "san-miguel/san-miguel.list"));
 
 }  // namespace

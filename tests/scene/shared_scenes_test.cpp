@@ -1,6 +1,4 @@
-// The real scenes, with the counts and boxes that their README states. Skipped where the scenes are not at hand:
-// CTU_SCENES names their folder (else ../shared/scenes beside the repository), CTU_SCENES_UNPACKED where they are
-// unpacked (else build/scenes).
+// The real scenes, with the counts and boxes that their README states. Skipped where the scenes are not at hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 
 #include "model/base/error.h"
 #include "tests/scene/scene_files.h"
+#include "tests/support/real_scenes.h"
 
 namespace ctu::scene::test {
 namespace {
@@ -145,23 +144,6 @@ const SharedScene kScenes[] = {
     {"tetra", "tetra/tetra.nff", "nff", 4096, 0, 0, 0, {"-1", "-1", "-1", "1", "1", "1"}, true},
 };
 
-std::filesystem::path from_environment(const char* variable, const std::filesystem::path& otherwise) {
-  const char* value = std::getenv(variable);
-  return value == nullptr ? otherwise : std::filesystem::path(value);
-}
-
-// The unpacked folder; empty if there are no shared scenes.
-std::filesystem::path unpacked_scenes() {
-  const std::filesystem::path repository = CTU_REPOSITORY;
-  const auto shared = from_environment("CTU_SCENES", repository / "../shared/scenes");
-  const auto unpacked = from_environment("CTU_SCENES_UNPACKED", repository / "build/scenes");
-  if (std::filesystem::exists(unpacked / "index.txt")) return unpacked;
-  if (!std::filesystem::is_directory(shared)) return {};
-  const std::string command =
-      (repository / "tools/unpack_scenes.sh").string() + " '" + shared.string() + "' '" + unpacked.string() + "'";
-  return std::system(command.c_str()) == 0 ? unpacked : std::filesystem::path{};
-}
-
 // Half a unit of the last printed digit.
 double half_digit(const std::string& printed) {
   const std::size_t point = printed.find('.');
@@ -174,7 +156,7 @@ double half_digit(const std::string& printed) {
 class SharedFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = unpacked_scenes();
+    folder_ = ctu::test::unpacked_scenes();
     if (folder_.empty()) GTEST_SKIP() << "no shared scenes: set CTU_SCENES to their folder";
   }
   std::filesystem::path folder_;
