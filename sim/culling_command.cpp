@@ -29,10 +29,10 @@ void print_header(const std::vector<DesignSurvey>& rows, bool markdown) {
     rule += " ---: |";
   }
   if (markdown)
-    fmt::print("| scene | rays | number of rays | intersections/ray |{} uncertain | lost hits | near misses |\n"
-               "| --- | --- | ---: | ---: |{} ---: | ---: | ---: |\n", names, rule);
+    fmt::print("| scene | rays | number of rays | intersections/ray |{} uncertain | lost hits | near misses | ties |\n"
+               "| --- | --- | ---: | ---: |{} ---: | ---: | ---: | ---: |\n", names, rule);
   else
-    fmt::print("{:<22}{:<9}{:>10}{:>13}{}{:>11}{:>7}{:>7}\n", "scene", "rays", "number", "inters./ray", names, "uncertain", "lost", "near");
+    fmt::print("{:<22}{:<9}{:>10}{:>13}{}{:>11}{:>7}{:>7}{:>7}\n", "scene", "rays", "number", "inters./ray", names, "uncertain", "lost", "near", "ties");
 }
 
 /// A share of box hits, in parts per million of them.
@@ -41,7 +41,7 @@ double per_million(std::uint64_t part, std::uint64_t whole) { return whole == 0 
 void print_row(const std::string& scene, const std::string& rays, const Survey& survey, bool markdown) {
   const double base = double(survey.designs[0].counts.intersections());
   std::string ratios;
-  std::uint64_t lost = 0, near = 0;
+  std::uint64_t lost = 0, near = 0, ties = 0;
   double uncertain = 0;
   for (std::size_t i = 1; i < survey.designs.size(); ++i) {
     const DesignSurvey& row = survey.designs[i];
@@ -49,16 +49,21 @@ void print_row(const std::string& scene, const std::string& rays, const Survey& 
     ratios += markdown ? fmt::format(" {:.1f} % |", percent) : fmt::format("{:>11.1f} %", percent);
     lost += row.lost_hits;
     near += row.near_misses;
+    ties += row.ties;
     uncertain = std::max(uncertain, per_million(row.counts.uncertain, row.counts.box_hits));
   }
   const auto& counts = survey.designs[0].counts;
   if (markdown)
-    fmt::print("| {} | {} | {} | {:.2f} |{} {:.1f} ppm | {} | {} |\n", scene, rays, counts.rays, counts.intersections_per_ray(), ratios,
-               uncertain, lost, near);
+    fmt::print("| {} | {} | {} | {:.2f} |{} {:.1f} ppm | {} | {} | {} |\n", scene, rays, counts.rays, counts.intersections_per_ray(), ratios,
+               uncertain, lost, near, ties);
   else
-    fmt::print("{:<22}{:<9}{:>10}{:>13.2f}{}{:>7.1f} ppm{:>7}{:>7}\n", scene, rays, counts.rays, counts.intersections_per_ray(), ratios,
-               uncertain, lost, near);
+    fmt::print("{:<22}{:<9}{:>10}{:>13.2f}{}{:>7.1f} ppm{:>7}{:>7}{:>7}\n", scene, rays, counts.rays, counts.intersections_per_ray(), ratios,
+               uncertain, lost, near, ties);
   std::fflush(stdout);
+}
+
+const char* name_of(Verdict verdict) {
+  return verdict == Verdict::Lost ? "LOST A HIT" : verdict == Verdict::NearMiss ? "near miss" : "tie";
 }
 
 void print_changed(const std::string& scene, const Survey& survey) {
@@ -68,7 +73,7 @@ void print_changed(const std::string& scene, const Survey& survey) {
     fmt::print(stderr,
                "{}: {} {}: origin {:a} {:a} {:a} direction {:a} {:a} {:a} t [{:a}, {:a}]: without culling primitive {} at {:a}, "
                "with it {} at {:a}\n",
-               scene, to_string(c.design), c.lost ? "LOST A HIT" : "near miss", c.ray.origin.x, c.ray.origin.y, c.ray.origin.z,
+               scene, to_string(c.design), name_of(c.verdict), c.ray.origin.x, c.ray.origin.y, c.ray.origin.z,
                c.ray.direction.x, c.ray.direction.y, c.ray.direction.z, c.ray.tmin, c.ray.tmax, c.without.primitive, c.without.t,
                static_cast<std::int32_t>(c.with.primitive), c.with.t);
   }

@@ -39,17 +39,27 @@ struct Contender {
 class Judge {
  public:
   explicit Judge(const scene::Mesh& mesh) : mesh_(mesh) {}
-  bool lost(const Ray& ray, const Hit& without) const {
-    if (without.primitive == intersect::kNoPrimitive) return false;
-    const auto& corner = mesh_.triangles[without.primitive];
-    return oracle::exact_ray_triangle(ray, mesh_.vertices[corner[0]], mesh_.vertices[corner[1]], mesh_.vertices[corner[2]],
-                                      ray.tmin, ray.tmax)
-        .hit;
+
+  Verdict judge(const Ray& ray, const Hit& without, const Hit& with) const {
+    const bool both_hit = without.primitive != intersect::kNoPrimitive && with.primitive != intersect::kNoPrimitive;
+    if (both_hit && without.t == with.t) return Verdict::Tie;
+    return meets(ray, without.primitive) ? Verdict::Lost : Verdict::NearMiss;
   }
 
  private:
+  bool meets(const Ray& ray, std::uint32_t primitive) const {
+    if (primitive == intersect::kNoPrimitive) return false;
+    const auto& [a, b, c] = mesh_.triangles[primitive];
+    const auto& v = mesh_.vertices;
+    return oracle::exact_ray_triangle(ray, v[a], v[b], v[c], ray.tmin, ray.tmax).hit;
+  }
+
   const scene::Mesh& mesh_;
 };
+
+void count(Verdict verdict, DesignSurvey& row) {
+  ++(verdict == Verdict::Lost ? row.lost_hits : verdict == Verdict::NearMiss ? row.near_misses : row.ties);
+}
 
 /// Rays of some paths through one design.
 void trace_chunk(const Contender& contender, const std::vector<Ray>& rays, const std::vector<Hit>& without, const Judge& judge,
@@ -58,9 +68,9 @@ void trace_chunk(const Contender& contender, const std::vector<Ray>& rays, const
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Hit with = contender.traversal.trace(rays[i], &steps);
     if (same_bits(with, without[i])) continue;
-    const bool lost = judge.lost(rays[i], without[i]);
-    ++(lost ? row.lost_hits : row.near_misses);
-    changed.push_back({contender.design, rays[i], without[i], with, lost});
+    const Verdict verdict = judge.judge(rays[i], without[i], with);
+    count(verdict, row);
+    changed.push_back({contender.design, rays[i], without[i], with, verdict});
   }
   row.counts += reference::count_steps(steps, 0, steps.rays());
 }
@@ -82,7 +92,7 @@ Survey survey_culling(const scene::Scene& scene, const traces::RecordOptions& op
   contenders.push_back(std::make_unique<Contender>(Design::None, options, bvh, masks));
   for (const Design design : designs)
     if (design != Design::None) contenders.push_back(std::make_unique<Contender>(design, options, bvh, masks));
-  for (const auto& contender : contenders) survey.designs.push_back({contender->design, {}, 0, 0});
+  for (const auto& contender : contenders) survey.designs.push_back({contender->design});
 
   start = std::chrono::steady_clock::now();
   const traces::RayGenerator generator(scene, options.rays);
@@ -93,7 +103,7 @@ Survey survey_culling(const scene::Scene& scene, const traces::RecordOptions& op
     std::vector<Ray> rays;
     std::vector<Hit> without;
     std::vector<DesignSurvey> rows = survey.designs;
-    for (DesignSurvey& row : rows) row = {row.design, {}, 0, 0};
+    for (DesignSurvey& row : rows) row = {row.design};
     std::vector<ChangedHit> changed;
     const auto plain = [&](const Ray& ray, bool) { return contenders[0]->traversal.trace(ray); };
     generator.generate(first, last, plain, rays, without);
@@ -104,6 +114,7 @@ Survey survey_culling(const scene::Scene& scene, const traces::RecordOptions& op
       survey.designs[d].counts += rows[d].counts;
       survey.designs[d].lost_hits += rows[d].lost_hits;
       survey.designs[d].near_misses += rows[d].near_misses;
+      survey.designs[d].ties += rows[d].ties;
     }
     survey.changed.insert(survey.changed.end(), changed.begin(), changed.end());
     paths_done += last - first;

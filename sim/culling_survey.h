@@ -14,19 +14,24 @@
 
 namespace ctu::sim {
 
-/// A ray whose hit with culling is not the one without. In exact arithmetic the ray meets the triangle found without culling
-/// (then a hit was lost: a defect), or it does not: a near miss, which only the rounded triangle test accepts.
+/// What became of a ray whose hit with culling is not the one without.
+enum class Verdict : std::uint8_t {
+  Lost,      ///< in exact arithmetic the ray meets the triangle found without culling: a defect
+  NearMiss,  ///< it does not: only the rounded triangle test accepts it
+  Tie,       ///< another triangle at the same t, bit for bit: where two meet, rounding decides which one comes first
+};
+
 struct ChangedHit {
   cull::Design design = cull::Design::None;
   intersect::Ray ray;
   intersect::Hit without, with;
-  bool lost = false;
+  Verdict verdict = Verdict::Lost;
 };
 
 struct DesignSurvey {
   cull::Design design = cull::Design::None;
   reference::Counts counts;
-  std::uint64_t lost_hits = 0, near_misses = 0;
+  std::uint64_t lost_hits = 0, near_misses = 0, ties = 0;
 };
 
 struct Survey {

@@ -4,7 +4,7 @@
 set -euo pipefail
 program=$1
 scenes=$2
-size=${3:-320x180}
+size=${3:-240x135}
 
 # Scenes without a camera in the file and with an inside worth seeing.
 declare -A camera=(
