@@ -92,7 +92,7 @@ Survey survey_culling(const scene::Scene& scene, const traces::RecordOptions& op
   contenders.push_back(std::make_unique<Contender>(Design::None, options, bvh, masks));
   for (const Design design : designs)
     if (design != Design::None) contenders.push_back(std::make_unique<Contender>(design, options, bvh, masks));
-  for (const auto& contender : contenders) survey.designs.push_back({contender->design});
+  for (const auto& contender : contenders) survey.designs.push_back({contender->design, {}, 0, 0, 0});
 
   start = std::chrono::steady_clock::now();
   const traces::RayGenerator generator(scene, options.rays);
@@ -103,7 +103,7 @@ Survey survey_culling(const scene::Scene& scene, const traces::RecordOptions& op
     std::vector<Ray> rays;
     std::vector<Hit> without;
     std::vector<DesignSurvey> rows = survey.designs;
-    for (DesignSurvey& row : rows) row = {row.design};
+    for (DesignSurvey& row : rows) row = {row.design, {}, 0, 0, 0};
     std::vector<ChangedHit> changed;
     const auto plain = [&](const Ray& ray, bool) { return contenders[0]->traversal.trace(ray); };
     generator.generate(first, last, plain, rays, without);
