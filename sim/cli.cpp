@@ -1,7 +1,7 @@
 #include "sim/cli.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "model/base/version.h"
 #include "sim/commands.h"
@@ -27,7 +27,8 @@ void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
   app.add_option("--count", args.count, "random: number of rays; 0: pixels times samples")->capture_default_str();
   app.add_flag("--skip-primary", args.skip_primary, "diffuse: leave the primary rays out");
   app.add_option("--r", args.resolution, "R: cells per axis of an object mask, 2..8")->capture_default_str();
-  app.add_option("--r-ray", args.ray_resolution, "R_ray: cells per axis of the ray's key; 0: as --r")->capture_default_str();
+  app.add_option("--r-ray", args.ray_resolution, "R_ray: cells per axis of the ray's key; 0: as --r")
+      ->capture_default_str();
   app.add_option("--l", args.levels, "L: levels below from which masks are made, 1..5 or inf")->capture_default_str();
   app.add_option("--leaf", args.leaf_triangles, "triangles in a leaf, at most")->capture_default_str();
   app.add_option("--threads", args.threads, "0: one for each core; results do not depend on it")->capture_default_str();
@@ -36,7 +37,8 @@ void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
 void add_unit_options(CLI::App& app, UnitArgs& args) {
   app.add_option("-c,--config", args.config_path, "TOML file with the unit's parameters");
   app.add_option("--set", args.sets, "KEY=VALUE over the file; may be repeated")->expected(1)->take_all();
-  app.add_option("--mode", args.mode, "plain, batch, cycle or pins: the same cycles at different speeds")->capture_default_str();
+  app.add_option("--mode", args.mode, "plain, batch, cycle or pins: the same cycles at different speeds")
+      ->capture_default_str();
   app.add_option("--source", args.source, "replay recorded outcomes, or exec: compute them")->capture_default_str();
 }
 
@@ -67,7 +69,8 @@ void add_run(CLI::App& app, Parsed& parsed) {
   auto* command = app.add_subcommand("run", "replay a trace through the unit and check every ray");
   command->add_option("trace", parsed.run.trace, "trace file")->required();
   add_unit_options(*command, parsed.run.unit);
-  command->add_option("--engine", parsed.run.engine, "cycle: the timed unit; reference: untimed")->capture_default_str();
+  command->add_option("--engine", parsed.run.engine, "cycle: the timed unit; reference: untimed")
+      ->capture_default_str();
   command->add_option("--json", parsed.run.json_path, "write the result here");
   command->add_option("--waves", parsed.run.waves_path, "write a waveform (VCD) of --window here");
   command->add_option("--window", parsed.run.window, "cycles A:B of the waveform");
@@ -85,7 +88,8 @@ void add_compare(CLI::App& app, Parsed& parsed) {
 }
 
 void add_culling(CLI::App& app, Parsed& parsed) {
-  auto* command = app.add_subcommand("culling", "intersections with each design relative to none, untimed, no trace kept");
+  auto* command =
+      app.add_subcommand("culling", "intersections with each design relative to none, untimed, no trace kept");
   add_scene_options(*command, parsed.culling.scene, true);
   command->add_option("--designs", parsed.culling.designs, "list of designs")->capture_default_str();
   command->add_flag("--markdown", parsed.culling.markdown, "print the rows of a Markdown table");

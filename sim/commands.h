@@ -25,7 +25,7 @@ struct SceneArgs {
   int ray_resolution = 0;  ///< 0: as resolution
   std::string levels = "inf";
   int leaf_triangles = 4;
-  int threads = 0;         ///< 0: all
+  int threads = 0;  ///< 0: all
 };
 
 struct RecordArgs {
@@ -73,7 +73,7 @@ struct HeatmapArgs {
 
 struct TraceArgs {
   std::string trace;
-  std::string output;                     ///< slice
+  std::string output;  ///< slice
   std::uint64_t first_ray = 0, rays = 10;
 };
 

@@ -83,8 +83,9 @@ void apply_file(UnitConfig& config, const std::string& path) {
     apply_table(config, toml::parse_file(path), "", path);
   } catch (const toml::parse_error& e) {
     const auto line = e.source().begin.line;
-    throw Error(line > 0 ? fmt::format("{}:{}", path, line) : path, std::string(e.description()),
-                line > 0 ? "mend the TOML; `ctusim config show` prints a complete example" : "check that the file exists");
+    throw Error(
+        line > 0 ? fmt::format("{}:{}", path, line) : path, std::string(e.description()),
+        line > 0 ? "mend the TOML; `ctusim config show` prints a complete example" : "check that the file exists");
   }
 }
 
@@ -111,7 +112,8 @@ void apply_set(UnitConfig& config, const std::string& assignment) {
 }
 
 std::string quoted(const ParameterValue& value) {
-  return std::holds_alternative<std::string>(value) ? fmt::format("\"{}\"", std::get<std::string>(value)) : to_text(value);
+  return std::holds_alternative<std::string>(value) ? fmt::format("\"{}\"", std::get<std::string>(value))
+                                                    : to_text(value);
 }
 
 }  // namespace
@@ -139,7 +141,8 @@ std::string config_to_toml(const UnitConfig& config, bool documented) {
       text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", table);
       open_table = table;
     }
-    if (documented) text += fmt::format("# {}\n#   {}; default {}\n", p.description, allowed_text(p), quoted(p.default_value));
+    if (documented)
+      text += fmt::format("# {}\n#   {}; default {}\n", p.description, allowed_text(p), quoted(p.default_value));
     text += fmt::format("{} = {}\n", dot == std::string::npos ? p.key : p.key.substr(dot + 1), quoted(p.get(config)));
   }
   return text;

@@ -13,8 +13,8 @@ namespace ctu::sim {
 /// or a value out of range is an Error naming file and line (or --set), the nearest known key, and what is allowed.
 pipeline::UnitConfig load_config(const std::string& path, const std::vector<std::string>& sets);
 
-/// The whole configuration as TOML that load_config reads back; with each parameter's unit, range and meaning as comments
-/// when `documented`.
+/// The whole configuration as TOML that load_config reads back; with each parameter's unit, range and meaning as
+/// comments when `documented`.
 std::string config_to_toml(const pipeline::UnitConfig& config, bool documented);
 
 /// Identity of a resolved configuration: 32 hexadecimal digits, the same on every machine.

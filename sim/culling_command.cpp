@@ -25,18 +25,24 @@ std::string short_name(const std::string& name) {
 void print_header(const std::vector<DesignSurvey>& rows, bool markdown) {
   std::string names, rule;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    names += markdown ? fmt::format(" {} |", to_string(rows[i].design)) : fmt::format("{:>13}", to_string(rows[i].design));
+    names +=
+        markdown ? fmt::format(" {} |", to_string(rows[i].design)) : fmt::format("{:>13}", to_string(rows[i].design));
     rule += " ---: |";
   }
   if (markdown)
-    fmt::print("| scene | rays | number of rays | intersections/ray |{} uncertain | lost hits | near misses | ties |\n"
-               "| --- | --- | ---: | ---: |{} ---: | ---: | ---: | ---: |\n", names, rule);
+    fmt::print(
+        "| scene | rays | number of rays | intersections/ray |{} uncertain | lost hits | near misses | ties |\n"
+        "| --- | --- | ---: | ---: |{} ---: | ---: | ---: | ---: |\n",
+        names, rule);
   else
-    fmt::print("{:<22}{:<9}{:>10}{:>13}{}{:>11}{:>7}{:>7}{:>7}\n", "scene", "rays", "number", "inters./ray", names, "uncertain", "lost", "near", "ties");
+    fmt::print("{:<22}{:<9}{:>10}{:>13}{}{:>11}{:>7}{:>7}{:>7}\n", "scene", "rays", "number", "inters./ray", names,
+               "uncertain", "lost", "near", "ties");
 }
 
 /// A share of box hits, in parts per million of them.
-double per_million(std::uint64_t part, std::uint64_t whole) { return whole == 0 ? 0 : 1e6 * double(part) / double(whole); }
+double per_million(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 1e6 * double(part) / double(whole);
+}
 
 void print_row(const std::string& scene, const std::string& rays, const Survey& survey, bool markdown) {
   const double base = double(survey.designs[0].counts.intersections());
@@ -54,11 +60,11 @@ void print_row(const std::string& scene, const std::string& rays, const Survey& 
   }
   const auto& counts = survey.designs[0].counts;
   if (markdown)
-    fmt::print("| {} | {} | {} | {:.2f} |{} {:.1f} ppm | {} | {} | {} |\n", scene, rays, counts.rays, counts.intersections_per_ray(), ratios,
-               uncertain, lost, near, ties);
+    fmt::print("| {} | {} | {} | {:.2f} |{} {:.1f} ppm | {} | {} | {} |\n", scene, rays, counts.rays,
+               counts.intersections_per_ray(), ratios, uncertain, lost, near, ties);
   else
-    fmt::print("{:<22}{:<9}{:>10}{:>13.2f}{}{:>7.1f} ppm{:>7}{:>7}{:>7}\n", scene, rays, counts.rays, counts.intersections_per_ray(), ratios,
-               uncertain, lost, near, ties);
+    fmt::print("{:<22}{:<9}{:>10}{:>13.2f}{}{:>7.1f} ppm{:>7}{:>7}{:>7}\n", scene, rays, counts.rays,
+               counts.intersections_per_ray(), ratios, uncertain, lost, near, ties);
   std::fflush(stdout);
 }
 
@@ -71,11 +77,12 @@ void print_changed(const std::string& scene, const Survey& survey) {
   for (std::size_t i = 0; i < survey.changed.size() && i < kListed; ++i) {
     const ChangedHit& c = survey.changed[i];
     fmt::print(stderr,
-               "{}: {} {}: origin {:a} {:a} {:a} direction {:a} {:a} {:a} t [{:a}, {:a}]: without culling primitive {} at {:a}, "
+               "{}: {} {}: origin {:a} {:a} {:a} direction {:a} {:a} {:a} t [{:a}, {:a}]: without culling primitive {} "
+               "at {:a}, "
                "with it {} at {:a}\n",
                scene, to_string(c.design), name_of(c.verdict), c.ray.origin.x, c.ray.origin.y, c.ray.origin.z,
-               c.ray.direction.x, c.ray.direction.y, c.ray.direction.z, c.ray.tmin, c.ray.tmax, c.without.primitive, c.without.t,
-               static_cast<std::int32_t>(c.with.primitive), c.with.t);
+               c.ray.direction.x, c.ray.direction.y, c.ray.direction.z, c.ray.tmin, c.ray.tmax, c.without.primitive,
+               c.without.t, static_cast<std::int32_t>(c.with.primitive), c.with.t);
   }
 }
 

@@ -62,8 +62,8 @@ void count(Verdict verdict, DesignSurvey& row) {
 }
 
 /// Rays of some paths through one design.
-void trace_chunk(const Contender& contender, const std::vector<Ray>& rays, const std::vector<Hit>& without, const Judge& judge,
-                 DesignSurvey& row, std::vector<ChangedHit>& changed) {
+void trace_chunk(const Contender& contender, const std::vector<Ray>& rays, const std::vector<Hit>& without,
+                 const Judge& judge, DesignSurvey& row, std::vector<ChangedHit>& changed) {
   reference::StepList steps;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Hit with = contender.traversal.trace(rays[i], &steps);
@@ -77,7 +77,8 @@ void trace_chunk(const Contender& contender, const std::vector<Ray>& rays, const
 
 }  // namespace
 
-Survey survey_culling(const scene::Scene& scene, const traces::RecordOptions& options, const std::vector<Design>& designs,
+Survey survey_culling(const scene::Scene& scene, const traces::RecordOptions& options,
+                      const std::vector<Design>& designs,
                       const std::function<void(std::uint64_t, std::uint64_t)>& progress) {
   Survey survey;
   survey.triangles = scene.mesh.triangles.size();
@@ -107,7 +108,8 @@ Survey survey_culling(const scene::Scene& scene, const traces::RecordOptions& op
     std::vector<ChangedHit> changed;
     const auto plain = [&](const Ray& ray, bool) { return contenders[0]->traversal.trace(ray); };
     generator.generate(first, last, plain, rays, without);
-    for (std::size_t d = 0; d < contenders.size(); ++d) trace_chunk(*contenders[d], rays, without, judge, rows[d], changed);
+    for (std::size_t d = 0; d < contenders.size(); ++d)
+      trace_chunk(*contenders[d], rays, without, judge, rows[d], changed);
 
     const std::lock_guard lock(mutex);
     for (std::size_t d = 0; d < rows.size(); ++d) {

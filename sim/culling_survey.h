@@ -42,7 +42,8 @@ struct Survey {
 };
 
 /// Traces the rays that `options` describe with each of `designs`; the result does not depend on options.threads.
-Survey survey_culling(const scene::Scene& scene, const traces::RecordOptions& options, const std::vector<cull::Design>& designs,
+Survey survey_culling(const scene::Scene& scene, const traces::RecordOptions& options,
+                      const std::vector<cull::Design>& designs,
                       const std::function<void(std::uint64_t done, std::uint64_t total)>& progress);
 
 }  // namespace ctu::sim

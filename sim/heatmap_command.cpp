@@ -1,4 +1,5 @@
-// `ctusim heatmap`: intersections of each pixel's camera rays without culling (left) and with it (right), the paper's Fig. 1.
+// `ctusim heatmap`: intersections of each pixel's camera rays without culling (left) and with it (right), the paper's
+// Fig. 1.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -20,7 +21,8 @@ namespace {
 using cull::Design;
 
 /// Intersections of each pixel, averaged over its samples, row by row from the top.
-std::vector<float> count_pixels(const traces::RayGenerator& generator, const reference::Traversal& traversal, int threads) {
+std::vector<float> count_pixels(const traces::RayGenerator& generator, const reference::Traversal& traversal,
+                                int threads) {
   const auto& rays = generator.options();
   std::vector<float> counts(static_cast<std::size_t>(rays.width) * rays.height);
   parallel_chunks(rays.height, 1, threads, [&](std::size_t first_row, std::size_t last_row) {
@@ -81,9 +83,12 @@ int heatmap_command(const HeatmapArgs& args) {
   const auto with = count_pixels(generator, reference::Traversal(bvh, &masks, culling), options.threads);
 
   const double range = args.range != 0 ? args.range : bright_end(without);
-  draw(without, with, static_cast<int>(options.rays.width), static_cast<int>(options.rays.height), range).write(args.output);
-  fmt::print("{}: intersections per primary ray {:.2f} without culling (left), {:.2f} with {} (right): {:.1f} %; scale 0 to {:.0f}\n",
-             args.output, mean(without), mean(with), args.design, 100 * mean(with) / mean(without), range);
+  draw(without, with, static_cast<int>(options.rays.width), static_cast<int>(options.rays.height), range)
+      .write(args.output);
+  fmt::print(
+      "{}: intersections per primary ray {:.2f} without culling (left), {:.2f} with {} (right): {:.1f} %; scale 0 to "
+      "{:.0f}\n",
+      args.output, mean(without), mean(with), args.design, 100 * mean(with) / mean(without), range);
   return 0;
 }
 

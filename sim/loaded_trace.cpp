@@ -22,7 +22,8 @@ accel::Image LoadedTrace::unit_image(cull::Design design) const {
 
 traces::RayRange LoadedTrace::range(std::uint64_t first, std::uint64_t count) const {
   if (first >= reader_.rays())
-    throw Error(reader_.path(), fmt::format("there is no ray {}", first), fmt::format("the trace holds rays 0 to {}", reader_.rays() - 1));
+    throw Error(reader_.path(), fmt::format("there is no ray {}", first),
+                fmt::format("the trace holds rays 0 to {}", reader_.rays() - 1));
   const std::uint64_t rest = reader_.rays() - first;
   return {first, first + (count == 0 ? rest : std::min(count, rest))};
 }

@@ -16,24 +16,26 @@ void print_designs(const std::vector<traces::DesignCounts>& designs) {
   double base = 0;
   for (const auto& row : designs)
     if (row.design == cull::Design::None) base = row.counts.intersections_per_ray();
-  fmt::print("{:<14}{:>14}{:>10}{:>10}{:>12}{:>10}\n", "mask test", "inters./ray", "of none", "culled", "uncertain", "changed");
+  fmt::print("{:<14}{:>14}{:>10}{:>10}{:>12}{:>10}\n", "mask test", "inters./ray", "of none", "culled", "uncertain",
+             "changed");
   for (const auto& row : designs) {
     const double work = row.counts.intersections_per_ray();
     fmt::print("{:<14}{:>14.3f}{:>10}{:>8.1f} %{:>12}{:>10}\n", to_string(row.design), work,
-               base > 0 ? fmt::format("{:.1f} %", 100 * work / base) : "-", 100 * row.counts.culled_share(), row.counts.uncertain,
-               row.different_hits);
+               base > 0 ? fmt::format("{:.1f} %", 100 * work / base) : "-", 100 * row.counts.culled_share(),
+               row.counts.uncertain, row.different_hits);
   }
 }
 
 void print_differences(const std::vector<traces::Difference>& differences) {
   for (const auto& d : differences)
-    fmt::print("changed: ray {} with {}: primitive {} at {:a} became {} at {:a}\n", d.ray, to_string(d.design), d.expected.primitive,
-               d.expected.t, static_cast<std::int32_t>(d.culled.primitive), d.culled.t);
+    fmt::print("changed: ray {} with {}: primitive {} at {:a} became {} at {:a}\n", d.ray, to_string(d.design),
+               d.expected.primitive, d.expected.t, static_cast<std::int32_t>(d.culled.primitive), d.culled.t);
 }
 
 void print_step(const reference::Step& step, const accel::Bvh4& bvh) {
   if (step.is_leaf()) {
-    fmt::print("    leaf  triangles {}..{}{}\n", accel::leaf_first(step.ref), accel::leaf_first(step.ref) + step.triangles_tested() - 1,
+    fmt::print("    leaf  triangles {}..{}{}\n", accel::leaf_first(step.ref),
+               accel::leaf_first(step.ref) + step.triangles_tested() - 1,
                step.became_best() != 0 ? fmt::format(", hit by mask {:#x}", step.became_best()) : "");
     return;
   }
@@ -63,9 +65,11 @@ int record_command(const RecordArgs& args) {
     Progress bar("recording", 0, "paths");
     summary = traces::record(scene, options, args.output, [&](std::uint64_t done, std::uint64_t) { bar.update(done); });
   }
-  fmt::print("{}: {} triangles, {} nodes, {:.1f} MB image; {} rays, {:.1f} MB, hash {}\n", args.output, summary.triangles,
-             summary.nodes, double(summary.image_bytes) / 1e6, summary.rays, double(summary.file_bytes) / 1e6, summary.hash);
-  fmt::print("tree {:.2f} s, masks {:.2f} s, rays {:.2f} s\n", summary.build_seconds, summary.mask_seconds, summary.trace_seconds);
+  fmt::print("{}: {} triangles, {} nodes, {:.1f} MB image; {} rays, {:.1f} MB, hash {}\n", args.output,
+             summary.triangles, summary.nodes, double(summary.image_bytes) / 1e6, summary.rays,
+             double(summary.file_bytes) / 1e6, summary.hash);
+  fmt::print("tree {:.2f} s, masks {:.2f} s, rays {:.2f} s\n", summary.build_seconds, summary.mask_seconds,
+             summary.trace_seconds);
   print_designs(summary.designs);
   print_differences(summary.differences);
   return 0;
@@ -77,14 +81,16 @@ int trace_info_command(const TraceArgs& args) {
   const auto row = [](std::string_view name, const std::string& value) { fmt::print("{:<16}{}\n", name, value); };
   row("trace", fmt::format("{}, {:.2f} MB, hash {}", args.trace, double(reader.size_bytes()) / 1e6, reader.hash()));
   row("written by", m.tool);
-  row("scene", fmt::format("{} ({}), {} triangles, hash {}", m.scene.name, m.scene.report.format, m.scene.triangles, m.scene.hash));
-  row("rays", fmt::format("{} {} in {} blocks; {}x{} pixels, {} samples, seed {}", reader.rays(), traces::to_string(m.rays.kind),
-                          reader.blocks(), m.rays.width, m.rays.height, m.rays.samples_per_pixel, m.rays.seed));
+  row("scene", fmt::format("{} ({}), {} triangles, hash {}", m.scene.name, m.scene.report.format, m.scene.triangles,
+                           m.scene.hash));
+  row("rays", fmt::format("{} {} in {} blocks; {}x{} pixels, {} samples, seed {}", reader.rays(),
+                          traces::to_string(m.rays.kind), reader.blocks(), m.rays.width, m.rays.height,
+                          m.rays.samples_per_pixel, m.rays.seed));
   row("masks", fmt::format("R {}, R_ray {}, L {}", m.masks.resolution, m.masks.ray_resolution,
                            m.masks.levels == cull::kUnlimitedLevels ? "inf" : std::to_string(m.masks.levels)));
   row("image", fmt::format("{} nodes of {} bytes, {} triangles of {} bytes, depth {}", m.image.shape.node_count,
-                           m.image.shape.node_stride_bytes, m.image.shape.triangle_count, m.image.shape.triangle_stride_bytes,
-                           m.image.shape.depth));
+                           m.image.shape.node_stride_bytes, m.image.shape.triangle_count,
+                           m.image.shape.triangle_stride_bytes, m.image.shape.depth));
   if (!m.cut_from.empty()) row("cut from", fmt::format("{}, from ray {}", m.cut_from, m.cut_first));
   print_designs(m.designs);
   print_differences(m.differences);
@@ -105,12 +111,13 @@ int trace_head_command(const TraceArgs& args) {
       const auto& ray = block->rays[i];
       const auto& hit = block->expected[i];
       fmt::print("ray {} {} origin {} {} {} direction {} {} {} t [{}, {}]: {}\n", block->first_ray + i,
-                 ray.kind == intersect::RayKind::AnyHit ? "any-hit" : "closest-hit", ray.origin.x, ray.origin.y, ray.origin.z,
-                 ray.direction.x, ray.direction.y, ray.direction.z, ray.tmin, ray.tmax,
+                 ray.kind == intersect::RayKind::AnyHit ? "any-hit" : "closest-hit", ray.origin.x, ray.origin.y,
+                 ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, ray.tmin, ray.tmax,
                  hit.primitive == intersect::kNoPrimitive
                      ? "miss"
                      : fmt::format("primitive {} at t {} u {} v {}", hit.primitive, hit.t, hit.u, hit.v));
-      for (auto s = block->steps.first_step[i]; s < block->steps.first_step[i + 1]; ++s) print_step(block->steps.steps[s], trace.bvh());
+      for (auto s = block->steps.first_step[i]; s < block->steps.first_step[i + 1]; ++s)
+        print_step(block->steps.steps[s], trace.bvh());
     }
   return 0;
 }

@@ -27,8 +27,10 @@ void parse_window(const std::string& window, unit::RunOptions& options) {
     return error == std::errc() && end == text.data() + text.size() && !text.empty();
   };
   if (colon == std::string::npos || !number(std::string_view(window).substr(0, colon), options.waves_first) ||
-      !number(std::string_view(window).substr(colon + 1), options.waves_last) || options.waves_first > options.waves_last)
-    throw Error("--window", fmt::format("\"{}\" is not a range of cycles", window), "write it as in --window 1000:2000");
+      !number(std::string_view(window).substr(colon + 1), options.waves_last) ||
+      options.waves_first > options.waves_last)
+    throw Error("--window", fmt::format("\"{}\" is not a range of cycles", window),
+                "write it as in --window 1000:2000");
 }
 
 unit::RunOptions run_options(const UnitArgs& args) {
@@ -39,15 +41,16 @@ unit::RunOptions run_options(const UnitArgs& args) {
 }
 
 void print_compare_header() {
-  fmt::print("{:<22}{:<13}{:>9}{:>12}{:>9}{:>9}{:>7}{:>12}{:>11}\n", "scene", "mask test", "rays", "inters./ray", "cycles/ray",
-             "culled", "wrong", "cycles/s", "rays/s");
+  fmt::print("{:<22}{:<13}{:>9}{:>12}{:>9}{:>9}{:>7}{:>12}{:>11}\n", "scene", "mask test", "rays", "inters./ray",
+             "cycles/ray", "culled", "wrong", "cycles/s", "rays/s");
 }
 
 void print_compare_row(const RunRecord& r) {
   const auto& counts = r.result.counts;
-  fmt::print("{:<22}{:<13}{:>9}{:>12.3f}{:>10.3f}{:>7.1f} %{:>7}{:>12.3g}{:>11.3g}\n", r.scene.substr(r.scene.find_last_of('/') + 1),
-             r.design, r.result.rays, counts.intersections_per_ray(), r.cycles_per_ray(), 100 * counts.culled_share(),
-             r.result.wrong_hits, r.cycles_per_second(), r.rays_per_second());
+  fmt::print("{:<22}{:<13}{:>9}{:>12.3f}{:>10.3f}{:>7.1f} %{:>7}{:>12.3g}{:>11.3g}\n",
+             r.scene.substr(r.scene.find_last_of('/') + 1), r.design, r.result.rays, counts.intersections_per_ray(),
+             r.cycles_per_ray(), 100 * counts.culled_share(), r.result.wrong_hits, r.cycles_per_second(),
+             r.rays_per_second());
   std::fflush(stdout);
 }
 
@@ -105,7 +108,8 @@ int bench_command(const BenchArgs& args) {
   plan.config = load_config(args.unit.config_path, args.unit.sets);
   const LoadedTrace trace(args.trace);
   plan.range = trace.range(0, 0);
-  fmt::print("{:<8}{:<9}{:>12}{:>14}{:>14}   median of {}\n", "mode", "source", "cycles", "Mcycles/s", "rays/s", args.repeats);
+  fmt::print("{:<8}{:<9}{:>12}{:>14}{:>14}   median of {}\n", "mode", "source", "cycles", "Mcycles/s", "rays/s",
+             args.repeats);
   for (const char* source : {"replay", "exec"}) {
     for (const char* mode : {"plain", "batch", "cycle", "pins"}) {
       plan.options.mode = parse_mode(mode);
@@ -118,7 +122,8 @@ int bench_command(const BenchArgs& args) {
         cycles_per_second.push_back(record.cycles_per_second());
         rays_per_second.push_back(record.rays_per_second());
       }
-      fmt::print("{:<8}{:<9}{:>12}{:>14.2f}{:>14.0f}\n", mode, source, cycles, median(cycles_per_second) / 1e6, median(rays_per_second));
+      fmt::print("{:<8}{:<9}{:>12}{:>14.2f}{:>14.0f}\n", mode, source, cycles, median(cycles_per_second) / 1e6,
+                 median(rays_per_second));
       std::fflush(stdout);
     }
   }

@@ -8,7 +8,6 @@
 #include "sim/config_file.h"
 #include "sim/run_record.h"
 
-
 namespace ctu::sim {
 namespace {
 
@@ -31,7 +30,8 @@ ordered_json causes_json(const std::vector<pipeline::Cause>& causes) {
 }
 
 ordered_json counts_json(const reference::Counts& counts) {
-  const auto item = [](std::string_view name, std::string_view unit, std::uint64_t value, std::string_view description) {
+  const auto item = [](std::string_view name, std::string_view unit, std::uint64_t value,
+                       std::string_view description) {
     return ordered_json{{"name", name}, {"unit", unit}, {"value", value}, {"description", description}};
   };
   return ordered_json::array({
@@ -40,7 +40,8 @@ ordered_json counts_json(const reference::Counts& counts) {
       item("traversal.leaf_visits", "leaves", counts.leaf_visits, "leaves whose triangles were tested"),
       item("traversal.box_hits", "children", counts.box_hits, "children that the box test hit"),
       item("traversal.culled", "children", counts.culled, "box hits thrown away by the mask test"),
-      item("traversal.uncertain", "children", counts.uncertain, "box hits passed because rounding left two candidate cells"),
+      item("traversal.uncertain", "children", counts.uncertain,
+           "box hits passed because rounding left two candidate cells"),
       item("traversal.dropped", "entries", counts.dropped, "stack entries dropped at the pop: beyond the best hit"),
   });
 }

@@ -21,19 +21,21 @@ void print_summary(const RunRecord& r) {
   row("config", r.config_hash);
   row("rays", std::to_string(r.result.rays));
   row("wrong hits", std::to_string(r.result.wrong_hits));
-  row("intersections per ray", fmt::format("{:.3f} ({:.3f} box tests of 4, {:.3f} triangle tests)", counts.intersections_per_ray(),
-                                           ratio(double(counts.node_visits), double(counts.rays)),
-                                           ratio(double(counts.triangle_tests), double(counts.rays))));
+  row("intersections per ray",
+      fmt::format("{:.3f} ({:.3f} box tests of 4, {:.3f} triangle tests)", counts.intersections_per_ray(),
+                  ratio(double(counts.node_visits), double(counts.rays)),
+                  ratio(double(counts.triangle_tests), double(counts.rays))));
   row("culled share", fmt::format("{:.2f} % of {} box hits", 100 * counts.culled_share(), counts.box_hits));
   row("passed as uncertain", fmt::format("{} box hits", counts.uncertain));
   if (r.engine == "cycle") {
     row("cycles", std::to_string(r.result.cycles));
     row("cycles per ray", fmt::format("{:.3f}", r.cycles_per_ray()));
-    row("latency of a ray", fmt::format("{:.1f} cycles", ratio(double(r.result.ray_latency_sum), double(r.result.rays))));
+    row("latency of a ray",
+        fmt::format("{:.1f} cycles", ratio(double(r.result.ray_latency_sum), double(r.result.rays))));
   }
-  row("simulation speed", fmt::format("{:.3g} rays/s{} in {:.3f} s", r.rays_per_second(),
-                                      r.engine == "cycle" ? fmt::format(", {:.3g} cycles/s", r.cycles_per_second()) : "",
-                                      r.wall_seconds));
+  row("simulation speed",
+      fmt::format("{:.3g} rays/s{} in {:.3f} s", r.rays_per_second(),
+                  r.engine == "cycle" ? fmt::format(", {:.3g} cycles/s", r.cycles_per_second()) : "", r.wall_seconds));
 }
 
 void print_stages(const pipeline::UnitResult& result) {
@@ -44,7 +46,8 @@ void print_stages(const pipeline::UnitResult& result) {
     for (const auto& cause : stage.stalled) {
       stalled += cause.cycles;
       if (cause.cycles != 0)
-        causes += fmt::format("{}{} {:.1f} %", causes.empty() ? "" : ", ", cause.name, percent(cause.cycles, result.cycles));
+        causes +=
+            fmt::format("{}{} {:.1f} %", causes.empty() ? "" : ", ", cause.name, percent(cause.cycles, result.cycles));
     }
     fmt::print("{:<18}{:>9.1f}{:>9.1f}{:>9.1f}   {}\n", stage.stage, percent(stage.busy, result.cycles),
                percent(stalled, result.cycles), percent(stage.idle, result.cycles), causes);
@@ -71,8 +74,8 @@ void print_counters(const pipeline::UnitResult& result) {
 void print_wrong_hits(const pipeline::UnitResult& result) {
   for (const auto& wrong : result.first_wrong)
     fmt::print("WRONG ray {}: expected t={:a} u={:a} v={:a} primitive={}, returned t={:a} u={:a} v={:a} primitive={}\n",
-               wrong.ray, wrong.expected.t, wrong.expected.u, wrong.expected.v, wrong.expected.primitive, wrong.returned.t,
-               wrong.returned.u, wrong.returned.v, wrong.returned.primitive);
+               wrong.ray, wrong.expected.t, wrong.expected.u, wrong.expected.v, wrong.expected.primitive,
+               wrong.returned.t, wrong.returned.u, wrong.returned.v, wrong.returned.primitive);
 }
 
 }  // namespace

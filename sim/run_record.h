@@ -9,11 +9,11 @@
 namespace ctu::sim {
 
 struct RunRecord {
-  std::string engine;       ///< "reference" (untimed: no cycles) or "cycle"
-  std::string mode;         ///< of the cycle engine: "plain", "batch", "cycle", "pins"
-  std::string source;       ///< "replay" or "exec"
+  std::string engine;  ///< "reference" (untimed: no cycles) or "cycle"
+  std::string mode;    ///< of the cycle engine: "plain", "batch", "cycle", "pins"
+  std::string source;  ///< "replay" or "exec"
   std::string trace_path, trace_hash, scene;
-  std::string command;      ///< as it was typed
+  std::string command;  ///< as it was typed
   pipeline::UnitConfig config;
   std::string config_hash;
   std::string design;

@@ -35,7 +35,8 @@ void parse_size(const std::string& size, traces::RayOptions& rays) {
 traces::RayOptions::Rays parse_rays(const std::string& name) {
   if (const auto kind = traces::rays_from_string(name)) return *kind;
   const std::vector<std::string> known{"primary", "diffuse", "shadow", "ao", "random"};
-  throw Error("--rays", fmt::format("unknown kind \"{}\"", name), fmt::format("did you mean \"{}\"?", nearest_name(name, known)));
+  throw Error("--rays", fmt::format("unknown kind \"{}\"", name),
+              fmt::format("did you mean \"{}\"?", nearest_name(name, known)));
 }
 
 /// "x,y,z" over a point of the camera; empty text leaves it.
@@ -72,7 +73,8 @@ cull::MaskOptions parse_masks(const SceneArgs& args) {
   masks.levels = parse_levels(args.levels);
   const auto check = [](const char* option, int value, int maximum) {
     if (value < cull::kMinResolution || value > maximum)
-      throw Error(option, fmt::format("{} is out of range", value), fmt::format("give {} to {}", cull::kMinResolution, maximum));
+      throw Error(option, fmt::format("{} is out of range", value),
+                  fmt::format("give {} to {}", cull::kMinResolution, maximum));
   };
   check("--r", masks.resolution, cull::kMaxResolution);
   check("--r-ray", masks.ray_resolution, cull::kMaxRayResolution);
@@ -90,7 +92,8 @@ std::vector<cull::Design> parse_designs(const std::string& list) {
     if (!design) {
       const std::vector<std::string> known{"none", "ideal", "mask-lut", "projection", "comparators"};
       throw Error("--designs", fmt::format("unknown design \"{}\"", name),
-                  fmt::format("did you mean \"{}\"? Known: {}", nearest_name(name, known), "none, ideal, mask-lut, projection, comparators"));
+                  fmt::format("did you mean \"{}\"? Known: {}", nearest_name(name, known),
+                              "none, ideal, mask-lut, projection, comparators"));
     }
     designs.push_back(*design);
     begin = comma + 1;

@@ -15,18 +15,23 @@ namespace ctu::sim {
 namespace {
 
 template <class Value>
-Value parse_choice(const std::string& option, const std::string& name, const std::vector<std::pair<std::string, Value>>& choices) {
+Value parse_choice(const std::string& option, const std::string& name,
+                   const std::vector<std::pair<std::string, Value>>& choices) {
   std::vector<std::string> known;
   for (const auto& [text, value] : choices) {
     if (text == name) return value;
     known.push_back(text);
   }
-  throw Error(option, fmt::format("unknown value \"{}\"", name), fmt::format("did you mean \"{}\"?", nearest_name(name, known)));
+  throw Error(option, fmt::format("unknown value \"{}\"", name),
+              fmt::format("did you mean \"{}\"?", nearest_name(name, known)));
 }
 
-const std::vector<std::pair<std::string, unit::Mode>> kModes = {
-    {"plain", unit::Mode::Plain}, {"batch", unit::Mode::Batch}, {"cycle", unit::Mode::Cycle}, {"pins", unit::Mode::Pins}};
-const std::vector<std::pair<std::string, unit::Source>> kSources = {{"replay", unit::Source::Replay}, {"exec", unit::Source::Exec}};
+const std::vector<std::pair<std::string, unit::Mode>> kModes = {{"plain", unit::Mode::Plain},
+                                                                {"batch", unit::Mode::Batch},
+                                                                {"cycle", unit::Mode::Cycle},
+                                                                {"pins", unit::Mode::Pins}};
+const std::vector<std::pair<std::string, unit::Source>> kSources = {{"replay", unit::Source::Replay},
+                                                                    {"exec", unit::Source::Exec}};
 
 template <class Value>
 std::string name_of(Value value, const std::vector<std::pair<std::string, Value>>& choices) {
@@ -85,7 +90,8 @@ RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
   record.config_hash = config_hash(plan.config);
   record.design = cull::to_string(plan.config.mask_test.design);
   const auto start = std::chrono::steady_clock::now();
-  record.result = plan.engine == "reference" ? run_reference(trace, tester, plan.range) : run_cycle(trace, tester, plan);
+  record.result =
+      plan.engine == "reference" ? run_reference(trace, tester, plan.range) : run_cycle(trace, tester, plan);
   record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return record;
 }

@@ -38,7 +38,8 @@ void gather(const std::uint8_t* __restrict from, std::size_t elements, std::uint
 }
 
 [[noreturn]] void damaged(const std::string& path, const std::string& what, const std::string& problem) {
-  throw Error(path, fmt::format("{}: {}", what, problem), "record the trace again, or copy it again from where it came");
+  throw Error(path, fmt::format("{}: {}", what, problem),
+              "record the trace again, or copy it again from where it came");
 }
 
 }  // namespace
@@ -124,7 +125,8 @@ EncodedColumn ColumnEncoder::encode(const void* data, std::size_t elements, std:
   }
   out.frame.resize(ZSTD_compressBound(bytes));
   const std::size_t stored = ZSTD_compress2(state_->context, out.frame.data(), out.frame.size(), planes, bytes);
-  if (ZSTD_isError(stored) != 0) throw Error("trace", fmt::format("compression failed: {}", ZSTD_getErrorName(stored)), "");
+  if (ZSTD_isError(stored) != 0)
+    throw Error("trace", fmt::format("compression failed: {}", ZSTD_getErrorName(stored)), "");
   out.frame.resize(stored);
   out.frame.shrink_to_fit();
   return out;

@@ -1,5 +1,6 @@
-// Columns: what a section of a trace is made of, and how one column of one block becomes a compressed frame. The bytes of
-// an element are spread over planes (all first bytes, then all second bytes, ...), because exponents and high bytes repeat.
+// Columns: what a section of a trace is made of, and how one column of one block becomes a compressed frame. The bytes
+// of an element are spread over planes (all first bytes, then all second bytes, ...), because exponents and high bytes
+// repeat.
 #pragma once
 
 #include <cstddef>
@@ -58,8 +59,8 @@ class ColumnEncoder {
   std::unique_ptr<State> state_;
 };
 
-/// Fills `to` (elements * width bytes) from a frame. Throws Error, at `where`, unless the frame holds exactly those bytes
-/// with that checksum; `to` is never written beyond its end.
+/// Fills `to` (elements * width bytes) from a frame. Throws Error, at `where`, unless the frame holds exactly those
+/// bytes with that checksum; `to` is never written beyond its end.
 class ColumnDecoder {
  public:
   ColumnDecoder();

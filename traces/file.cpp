@@ -148,7 +148,8 @@ void InputFile::read_at(std::uint64_t offset, void* to, std::size_t bytes, const
 OutputFile::OutputFile(const std::string& path) : path_(path), part_path_(path + ".part") {
   descriptor_ = ::open(part_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0)
-    throw Error(path, fmt::format("cannot be written: {}", std::strerror(errno)), "check the folder and its permissions");
+    throw Error(path, fmt::format("cannot be written: {}", std::strerror(errno)),
+                "check the folder and its permissions");
   buffer_.reserve(kBufferBytes);
 }
 

@@ -133,7 +133,8 @@ Json to_json_list(const std::vector<T>& list) {
 /// An object of the text, with the name by which a message can point at it.
 class Reader {
  public:
-  Reader(const Json& json, std::string name, const std::string& path) : json_(json), name_(std::move(name)), path_(path) {
+  Reader(const Json& json, std::string name, const std::string& path)
+      : json_(json), name_(std::move(name)), path_(path) {
     if (!json.is_object()) fail("is not an object");
   }
 

@@ -20,9 +20,9 @@ inline constexpr std::uint32_t kMaxRaysPerBlock = 1u << 20;
 inline constexpr std::size_t kMaxListedDifferences = 64;
 
 struct SceneInfo {
-  std::string name;             ///< as given to scene::load
-  std::string hash;             ///< scene::content_hash, 32 digits
-  float strand_thickness = 0;   ///< scene::LoadOptions
+  std::string name;            ///< as given to scene::load
+  std::string hash;            ///< scene::content_hash, 32 digits
+  float strand_thickness = 0;  ///< scene::LoadOptions
   std::uint64_t triangles = 0;
   scene::Camera camera;
   scene::LoadReport report;
@@ -31,7 +31,7 @@ struct SceneInfo {
 /// What a design visits for the rays of the trace.
 struct DesignCounts {
   cull::Design design = cull::Design::None;
-  bool stored = false;              ///< its steps are in the trace
+  bool stored = false;  ///< its steps are in the trace
   reference::Counts counts;
   std::uint64_t different_hits = 0;  ///< rays whose hit with this design is not the expected one, bit for bit
 };

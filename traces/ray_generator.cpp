@@ -60,8 +60,7 @@ Departure depart(const scene::Mesh& mesh, const Ray& arriving, const Hit& hit) {
 
 RayGenerator::RayGenerator(const scene::Scene& scene, const RayOptions& options) : scene_(scene), options_(options) {
   check(options);
-  const std::uint64_t samples =
-      static_cast<std::uint64_t>(options.width) * options.height * options.samples_per_pixel;
+  const std::uint64_t samples = static_cast<std::uint64_t>(options.width) * options.height * options.samples_per_pixel;
   paths_ = options.kind == Rays::Random && options.count != 0 ? options.count : samples;
   diagonal_ = length(widen(scene.upper) - widen(scene.lower));
   light_ = options.light ? *options.light : default_light(scene);
@@ -90,8 +89,7 @@ Ray RayGenerator::primary_ray(std::uint32_t x, std::uint32_t y, std::uint32_t sa
     in_x = random[0], in_y = random[1];
   }
   const double across = 2 * (x + in_x) / options_.width - 1, down = 2 * (y + in_y) / options_.height - 1;
-  const Vec3d direction =
-      normalized(basis_.forward + basis_.right * across - basis_.up * down, basis_.forward);
+  const Vec3d direction = normalized(basis_.forward + basis_.right * across - basis_.up * down, basis_.forward);
   return {scene_.camera.eye, 0, round_to_nearest(direction), kInfinity, RayKind::ClosestHit};
 }
 
@@ -118,7 +116,8 @@ Ray RayGenerator::secondary(const Ray& arriving, const Hit& hit, std::uint64_t p
   const auto random = random_numbers(options_.seed, pixel, sample, bounce);
   const Vec3d direction = normalized(cosine_direction(from.normal, random[0], random[1]), from.normal);
   if (options_.kind == Rays::Ao)
-    return {origin, 0, round_to_nearest(direction), static_cast<float>(options_.ao_radius * diagonal_), RayKind::AnyHit};
+    return {origin, 0, round_to_nearest(direction), static_cast<float>(options_.ao_radius * diagonal_),
+            RayKind::AnyHit};
   return {origin, 0, round_to_nearest(direction), kInfinity, RayKind::ClosestHit};
 }
 
@@ -140,8 +139,9 @@ void RayGenerator::walk_path(std::uint64_t path, const TraceRay& trace, std::vec
   const bool keep_primary =
       options_.kind == Rays::Primary || (options_.kind == Rays::Diffuse && !options_.skip_primary);
   Hit hit = keep_primary ? emit(ray) : trace(ray, false);
-  const std::uint32_t bounces =
-      options_.kind == Rays::Primary ? 0 : options_.kind == Rays::Diffuse ? options_.bounces : 1;
+  const std::uint32_t bounces = options_.kind == Rays::Primary   ? 0
+                                : options_.kind == Rays::Diffuse ? options_.bounces
+                                                                 : 1;
   for (std::uint32_t bounce = 1; bounce <= bounces && hit.primitive != intersect::kNoPrimitive; ++bounce) {
     ray = secondary(ray, hit, pixel, sample, bounce);
     hit = emit(ray);

@@ -2,9 +2,10 @@
 // rays are the same for any number of threads and any cut into pieces.
 //
 // A path is one sample of one pixel (or one random line); its rays follow each other in the trace, and paths follow in
-// the order pixel, sample. Secondary rays start on the triangle at the recorded barycentric coordinates, moved along the
-// geometric normal, on the side that the arriving ray came from, by 2^-19 of the largest coordinate in sight (16 units in
-// the last place): more than the rounding of the origin, so a ray never meets the triangle that it leaves. tmin is 0.
+// the order pixel, sample. Secondary rays start on the triangle at the recorded barycentric coordinates, moved along
+// the geometric normal, on the side that the arriving ray came from, by 2^-19 of the largest coordinate in sight (16
+// units in the last place): more than the rounding of the origin, so a ray never meets the triangle that it leaves.
+// tmin is 0.
 #pragma once
 
 #include <cstdint>
@@ -56,9 +57,9 @@ class RayGenerator {
   double diagonal_ = 0;
 };
 
-/// The light of scenes for which none is given: over the centre of the box, as `up` of the camera is nearest to an axis,
-/// three quarters of the diagonal high when the camera stands outside; just under the top of the box when it stands
-/// inside, as in a room.
+/// The light of scenes for which none is given: over the centre of the box, as `up` of the camera is nearest to an
+/// axis, three quarters of the diagonal high when the camera stands outside; just under the top of the box when it
+/// stands inside, as in a room.
 Vec3 default_light(const scene::Scene& scene);
 
 }  // namespace ctu::traces

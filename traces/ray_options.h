@@ -20,7 +20,7 @@ struct RayOptions {
   Rays kind = Rays::Primary;
   std::uint32_t width = 256, height = 256;  ///< pixels
   std::uint32_t samples_per_pixel = 1;
-  std::uint32_t bounces = 4;                ///< Diffuse: segments after the primary one, at most
+  std::uint32_t bounces = 4;  ///< Diffuse: segments after the primary one, at most
   std::uint64_t seed = 1;
   bool skip_primary = false;  ///< Diffuse: leave the primary rays out of the trace
   bool jitter = true;         ///< false: every sample goes through the centre of its pixel

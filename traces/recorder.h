@@ -32,16 +32,16 @@ struct RecordSummary {
   std::uint64_t image_bytes = 0;
   std::uint32_t nodes = 0, triangles = 0;
   double build_seconds = 0, mask_seconds = 0, trace_seconds = 0;
-  std::vector<DesignCounts> designs;     ///< stored ones first
-  std::vector<Difference> differences;   ///< the first kMaxListedDifferences; all are counted in `designs`
-  std::string hash;                      ///< trace hash
+  std::vector<DesignCounts> designs;    ///< stored ones first
+  std::vector<Difference> differences;  ///< the first kMaxListedDifferences; all are counted in `designs`
+  std::string hash;                     ///< trace hash
 };
 
 /// Called with paths done and paths in all, from one thread at a time.
 using RecordProgress = std::function<void(std::uint64_t done, std::uint64_t total)>;
 
-/// Records to `path`. A hit with culling that differs from the hit without is counted and listed, and the trace keeps the
-/// one without as the expected hit. Throws Error on options out of range and on a file that cannot be written.
+/// Records to `path`. A hit with culling that differs from the hit without is counted and listed, and the trace keeps
+/// the one without as the expected hit. Throws Error on options out of range and on a file that cannot be written.
 RecordSummary record(const scene::Scene& scene, const RecordOptions& options, const std::string& path,
                      const RecordProgress& progress = {});
 

@@ -61,7 +61,8 @@ Vec3d cosine_direction(const Vec3d& normal, double u, double v) {
   const DiskPoint p = disk_point(u, v);
   const double r2 = p.x * p.x + p.y * p.y;
   const double height = std::sqrt(r2 < 1 ? 1 - r2 : 0);
-  // A basis about the normal without a branch on its size: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+  // A basis about the normal without a branch on its size: Duff et al. 2017, "Building an Orthonormal Basis,
+  // Revisited".
   const double sign = std::copysign(1.0, normal.z);
   const double a = -1 / (sign + normal.z);
   const double b = normal.x * normal.y * a;

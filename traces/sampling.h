@@ -10,7 +10,8 @@
 namespace ctu::traces {
 
 /// Four numbers in [0, 1), multiples of 2^-32, that depend on the arguments alone: Philox4x32-10 (Salmon et al. 2011).
-std::array<double, 4> random_numbers(std::uint64_t seed, std::uint64_t item, std::uint32_t sample, std::uint32_t dimension);
+std::array<double, 4> random_numbers(std::uint64_t seed, std::uint64_t item, std::uint32_t sample,
+                                     std::uint32_t dimension);
 
 struct Vec3d {
   double x = 0, y = 0, z = 0;
@@ -45,7 +46,8 @@ DiskPoint disk_point(double u, double v);
 /// Uniform on the unit sphere: the disk under Lambert's equal-area map.
 Vec3d sphere_point(double u, double v);
 
-/// Cosine-weighted about the unit vector `normal` (Malley: the disk raised to the hemisphere), of length 1 but for rounding.
+/// Cosine-weighted about the unit vector `normal` (Malley: the disk raised to the hemisphere), of length 1 but for
+/// rounding.
 Vec3d cosine_direction(const Vec3d& normal, double u, double v);
 
 }  // namespace ctu::traces

@@ -1,5 +1,5 @@
-// A range of a trace's rays as a feed, block by block, with what one design visits: read where the trace has it and checked
-// against the image, walked again by the reference where it has not. Both give the same steps (contract 3).
+// A range of a trace's rays as a feed, block by block, with what one design visits: read where the trace has it and
+// checked against the image, walked again by the reference where it has not. Both give the same steps (contract 3).
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@ struct RayRange {
   std::uint64_t last = UINT64_MAX;
 };
 
-/// Whether the trace holds the steps that a tester with these options would make: R_ray matters only to designs that read
-/// tables, and masks not at all without culling.
+/// Whether the trace holds the steps that a tester with these options would make: R_ray matters only to designs that
+/// read tables, and masks not at all without culling.
 bool holds_steps(const TraceReader& reader, cull::Design design, const cull::MaskOptions& options);
 
 class TraceFeed : public reference::RayFeed {

@@ -9,8 +9,8 @@
 
 namespace ctu::traces {
 
-/// 32 hexadecimal digits (XXH3-128) over the manifest's identity, the columns' names and types, and the checksum of every
-/// column of every block.
+/// 32 hexadecimal digits (XXH3-128) over the manifest's identity, the columns' names and types, and the checksum of
+/// every column of every block.
 std::string trace_hash(const Manifest& manifest, const std::vector<IndexEntry>& index);
 
 }  // namespace ctu::traces

@@ -46,7 +46,8 @@ TraceReader::TraceReader(const std::string& path) : file_(path) {
 }
 
 void TraceReader::refuse(const std::string& section, const std::string& what) const {
-  throw Error(path(), fmt::format("{}: {}", section, what), "record the trace again, or copy it again from where it came");
+  throw Error(path(), fmt::format("{}: {}", section, what),
+              "record the trace again, or copy it again from where it came");
 }
 
 std::string TraceReader::describe(const IndexEntry& entry) const {
@@ -114,7 +115,8 @@ void TraceReader::expect_rays(const Section& wanted) const {
 }
 
 std::uint64_t TraceReader::block_of(std::uint64_t ray) const {
-  return static_cast<std::uint64_t>(std::upper_bound(first_ray_.begin(), first_ray_.end(), ray) - first_ray_.begin()) - 1;
+  return static_cast<std::uint64_t>(std::upper_bound(first_ray_.begin(), first_ray_.end(), ray) - first_ray_.begin()) -
+         1;
 }
 
 bool TraceReader::has_steps(cull::Design design) const {
@@ -186,7 +188,8 @@ void TraceReader::read_hits(ColumnDecoder& decoder, std::uint64_t block, referen
   const auto primitive = read_column<std::uint32_t>(decoder, "hits", "primitive", block, count);
   for (std::uint64_t i = 0; i < count; ++i) {
     if (primitive[i] != intersect::kNoPrimitive && primitive[i] >= manifest_.scene.triangles)
-      refuse("hits", fmt::format("ray {} hits primitive {}, which the scene does not have", out.first_ray + i, primitive[i]));
+      refuse("hits",
+             fmt::format("ray {} hits primitive {}, which the scene does not have", out.first_ray + i, primitive[i]));
     out.expected[i] = {t[i], u[i], v[i], primitive[i]};
   }
 }

@@ -1,5 +1,5 @@
-// Writes a trace block by block, in bounded memory. Blocks are encoded (by any thread, each with its own BlockEncoder) and
-// then added in order.
+// Writes a trace block by block, in bounded memory. Blocks are encoded (by any thread, each with its own BlockEncoder)
+// and then added in order.
 #pragma once
 
 #include <string>

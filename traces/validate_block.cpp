@@ -69,11 +69,13 @@ class Follower {
     if ((survivors & ~step.box_hits()) != 0) refuse("a lane survives that the box test missed");
     if ((step.uncertain() & ~survivors) != 0 || (step.detail >> 12) != 0) refuse("an uncertain lane does not survive");
     for (int lane = 0; lane < intersect::kLanes; ++lane)
-      if (((step.box_hits() >> lane) & 1u) != 0 && node.child[lane] == accel::kEmptyChild) refuse("an empty lane is hit");
+      if (((step.box_hits() >> lane) & 1u) != 0 && node.child[lane] == accel::kEmptyChild)
+        refuse("an empty lane is hit");
     const int count = std::popcount(survivors);
     unsigned ordered = 0;
     for (int i = 0; i < count; ++i) ordered |= 1u << step.survivor(i);
-    if (ordered != survivors || (step.detail & 0xFFu) >> (2 * count) != 0) refuse("the order is not one of the survivors");
+    if (ordered != survivors || (step.detail & 0xFFu) >> (2 * count) != 0)
+      refuse("the order is not one of the survivors");
     for (int i = count - 1; i >= 0; --i) stack_.push_back(node.child[step.survivor(i)]);
   }
 

@@ -1,5 +1,5 @@
-// Is a block read from a file a walk through this image? After this check a replay can follow it without looking where it
-// steps.
+// Is a block read from a file a walk through this image? After this check a replay can follow it without looking where
+// it steps.
 #pragma once
 
 #include <string>

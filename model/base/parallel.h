@@ -22,8 +22,7 @@ template <class Body>
 void parallel_chunks(std::size_t count, std::size_t chunk, int threads, Body&& body) {
   const std::size_t chunks = count == 0 ? 0 : (count + chunk - 1) / chunk;
   if (threads <= 1 || chunks <= 1) {
-    for (std::size_t c = 0; c < chunks; ++c)
-      body(c * chunk, c * chunk + chunk < count ? c * chunk + chunk : count);
+    for (std::size_t c = 0; c < chunks; ++c) body(c * chunk, c * chunk + chunk < count ? c * chunk + chunk : count);
     return;
   }
   std::atomic<std::size_t> next{0};

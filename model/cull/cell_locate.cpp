@@ -43,8 +43,8 @@ class Planes {
     }
   }
 
-  /// The floor cells of the points at `value`: as many as planes at or below. Going up, a plane is below from the moment it
-  /// is met on; going down, until after it is met.
+  /// The floor cells of the points at `value`: as many as planes at or below. Going up, a plane is below from the
+  /// moment it is met on; going down, until after it is met.
   Cells cells_at(Range value, bool descending) const {
     const numeric::Mask4 passed_when_met = numeric::splat(descending ? 0 : -1);
     const Float4 down = numeric::splat(value.down), up = numeric::splat(value.up);
@@ -73,15 +73,16 @@ struct AxisCells {
 };
 
 template <int Groups>
-AxisCells locate_axis(const intersect::PreparedRay& ray, const intersect::SlabTimes& times, const intersect::Box4& boxes,
-                      int lane, int ray_resolution, int axis, Range entry, Range exit) {
+AxisCells locate_axis(const intersect::PreparedRay& ray, const intersect::SlabTimes& times,
+                      const intersect::Box4& boxes, int lane, int ray_resolution, int axis, Range entry, Range exit) {
   const float lo = boxes.lo[axis][lane], hi = boxes.hi[axis][lane];
   // A flat box has one layer that the object mask repeats in every cell of the axis: any cell will do.
   if (lo == hi) return {};
   const LerpWeights& weights = lerp_weights(ray_resolution);
   if ((ray.zero_axes >> axis & 1) != 0) {
     const float position = ray.ray.origin[axis];
-    const Cells cells = Planes<Groups>(weights, ray_resolution, {lo, lo}, {hi, hi}).cells_at({position, position}, false);
+    const Cells cells =
+        Planes<Groups>(weights, ray_resolution, {lo, lo}, {hi, hi}).cells_at({position, position}, false);
     return {cells, cells};
   }
   const Planes<Groups> planes(weights, ray_resolution, {times.near_down[axis][lane], times.near_up[axis][lane]},

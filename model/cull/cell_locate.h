@@ -19,7 +19,8 @@ struct CellKey {
 };
 
 /// For a lane that the slab test hit: the half-open (floor) cells of the points at t0 and t1 in an
-/// R_ray^3 grid over the box, clamped to the grid; or, where only one axis leaves a doubt, a column of cells that holds both.
+/// R_ray^3 grid over the box, clamped to the grid; or, where only one axis leaves a doubt, a column of cells that holds
+/// both.
 CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTimes& times, const intersect::Box4& boxes,
                     int lane, int ray_resolution);
 

@@ -63,8 +63,8 @@ void walk_grid(const intersect::PreparedRay& ray, const intersect::SlabTimes& ti
     time = std::max(time, axes[a].earliest[0]);
     stop = std::min(stop, axes[a].latest[R]);
   }
-  // A box hit by rounding alone, or entered after the best hit by less than its rounding, keeps the cell at its entry: the
-  // walk culls by cells, not by a sharper box test.
+  // A box hit by rounding alone, or entered after the best hit by less than its rounding, keeps the cell at its entry:
+  // the walk culls by cells, not by a sharper box test.
   time = std::min(time, stop);
   std::fill_n(words, kWords<R>, 0);
   while (time <= stop) {

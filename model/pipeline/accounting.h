@@ -57,8 +57,8 @@ class Account {
   std::array<std::uint64_t, kActivities> cycles_{};
 };
 
-/// Where a ray is: from the cycle in which the stage takes it to the cycle in which the next one does, so waiting in the
-/// link behind a stage counts for that stage.
+/// Where a ray is: from the cycle in which the stage takes it to the cycle in which the next one does, so waiting in
+/// the link behind a stage counts for that stage.
 enum class Place : std::uint8_t {
   RaySetup,
   Scheduler,

@@ -1,5 +1,5 @@
-// The contexts: a register file with one place for each ray in flight. A ray has at most one node or leaf outstanding, so
-// a context is touched by one stage at a time: the one that holds the token with its number.
+// The contexts: a register file with one place for each ray in flight. A ray has at most one node or leaf outstanding,
+// so a context is touched by one stage at a time: the one that holds the token with its number.
 #pragma once
 
 #include <array>
@@ -16,16 +16,16 @@ namespace ctu::pipeline {
 
 /// What every source of outcomes needs of a ray. Computed values live in the source's own registers (exec_source.h).
 struct Context {
-  std::uint64_t ray = 0;                            ///< number in the whole trace
+  std::uint64_t ray = 0;  ///< number in the whole trace
   std::shared_ptr<const reference::RayBlock> block;
-  std::uint32_t index = 0;                          ///< of the ray in its block
-  std::uint32_t visits = 0;                         ///< nodes and leaves visited so far
-  Cycle entered = 0, since = 0;                     ///< cycle it took the context; cycle it came to `place`
+  std::uint32_t index = 0;       ///< of the ray in its block
+  std::uint32_t visits = 0;      ///< nodes and leaves visited so far
+  Cycle entered = 0, since = 0;  ///< cycle it took the context; cycle it came to `place`
   Place place = Place::RaySetup;
   bool any_hit = false;
   bool in_flight = false;
-  std::uint16_t depth = 0;                          ///< stack entries, spilled ones included
-  std::uint16_t spilled = 0;                        ///< of those, how many lie in memory (the oldest)
+  std::uint16_t depth = 0;    ///< stack entries, spilled ones included
+  std::uint16_t spilled = 0;  ///< of those, how many lie in memory (the oldest)
 };
 
 class Contexts {

@@ -12,9 +12,9 @@ std::string deadlock_report(Cycle now, Cycle last_moved, const Probes& probes, c
     if (context.in_flight && (oldest == nullptr || context.ray < oldest->ray)) oldest = &context;
   }
   if (oldest != nullptr)
-    text += fmt::format("oldest ray: {}, in the unit since cycle {}, at {} since cycle {}, {} visits done, {} stack entries\n",
-                        oldest->ray, oldest->entered, name_of(oldest->place), oldest->since, oldest->visits,
-                        oldest->depth);
+    text += fmt::format(
+        "oldest ray: {}, in the unit since cycle {}, at {} since cycle {}, {} visits done, {} stack entries\n",
+        oldest->ray, oldest->entered, name_of(oldest->place), oldest->since, oldest->visits, oldest->depth);
   text += "links (entries, valid, ready):\n";
   for (const LinkProbe& link : probes.links)
     text += fmt::format("  {:<20} {} {} {}{}\n", link.name, link.occupancy(), link.valid(now) ? "valid" : "-    ",

@@ -60,7 +60,8 @@ class PlainEngine final : public Engine {
                   [&](const char* name, auto& out, auto& in) { links_.join(name, out, in); });
     for_each_stage(stages_, [&](auto& stage) { links_.probes().stages.push_back(&stage.account); });
     if (!options.waves_path.empty())
-      waves_ = std::make_unique<WaveWriter>(options.waves_path, links_.probes(), options.waves_first, options.waves_last);
+      waves_ =
+          std::make_unique<WaveWriter>(options.waves_path, links_.probes(), options.waves_first, options.waves_last);
   }
 
   bool advance(Cycle until) override {
@@ -102,7 +103,8 @@ class PlainEngine final : public Engine {
     constexpr std::size_t kCount = std::tuple_size_v<decltype(all)>;
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (if_present(std::get<(kForward ? I : kCount - 1 - I)>(all), [&](auto& stage) { moved |= stage.step(now); }), ...);
-    }(std::make_index_sequence<kCount>{});
+    }
+    (std::make_index_sequence<kCount>{});
     return moved;
   }
 

@@ -22,10 +22,10 @@ class DeadlockFound : public std::runtime_error {
 };
 
 struct EngineOptions {
-  bool exec = false;             ///< compute outcomes; false: replay recorded ones
-  bool skip_idle = true;         ///< jump over cycles in which nothing can move
-  bool reverse_order = false;    ///< step the stages from the last to the first: the same result, for tests
-  bool keep_events = false;      ///< the event log keeps its events, for tests
+  bool exec = false;           ///< compute outcomes; false: replay recorded ones
+  bool skip_idle = true;       ///< jump over cycles in which nothing can move
+  bool reverse_order = false;  ///< step the stages from the last to the first: the same result, for tests
+  bool keep_events = false;    ///< the event log keeps its events, for tests
   Backpressure backpressure{};
   std::string waves_path{};
   Cycle waves_first = 0, waves_last = 0;

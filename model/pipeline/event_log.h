@@ -14,21 +14,23 @@ namespace ctu::pipeline {
 struct Event {
   Cycle cycle = 0;
   std::uint64_t ray = 0;
-  std::uint32_t visit = 0;       ///< number of the visit within its ray; of a return, how many there were
+  std::uint32_t visit = 0;  ///< number of the visit within its ray; of a return, how many there were
   bool is_return = false;
-  reference::Step step;          ///< of a return: `ref` holds the primitive found
+  reference::Step step;  ///< of a return: `ref` holds the primitive found
   bool operator==(const Event&) const = default;
 };
 
-/// Two sums over all events, so that the order of stages within a cycle does not matter: one over (cycle, ray, step), one
-/// over (ray, number of the visit, step), which no timing may change (contract 3). `keep_events` also keeps the events.
+/// Two sums over all events, so that the order of stages within a cycle does not matter: one over (cycle, ray, step),
+/// one over (ray, number of the visit, step), which no timing may change (contract 3). `keep_events` also keeps the
+/// events.
 class EventLog {
  public:
   explicit EventLog(bool keep_events = false) : keep_events_(keep_events) {}
 
   void add(const Event& event) {
-    const std::uint64_t what = (std::bit_cast<std::uint64_t>(event.step) ^ (event.is_return ? kReturn : 0)) * 0x9E3779B97F4A7C15ull +
-                               event.ray * 0xD1B54A32D192ED03ull;
+    const std::uint64_t what =
+        (std::bit_cast<std::uint64_t>(event.step) ^ (event.is_return ? kReturn : 0)) * 0x9E3779B97F4A7C15ull +
+        event.ray * 0xD1B54A32D192ED03ull;
     timed_hash_ += mix64(what ^ event.cycle * 0x8CB92BA72F3D8DD7ull);
     untimed_hash_ += mix64(what ^ event.visit * 0xAEF17502108EF2D9ull);
     if (keep_events_) events_.push_back(event);

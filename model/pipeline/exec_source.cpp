@@ -132,8 +132,8 @@ bool ExecSource::drops(Slot slot, int position) {
 }
 
 ExecSource::Test ExecSource::triangle_test(Slot slot, accel::ChildRef leaf, int index, bool last) {
-  // The tests of a leaf are under way together, so all see the best hit from before the leaf. The outcome is the same as
-  // with the best hit of the moment: what lies beyond it does not replace it.
+  // The tests of a leaf are under way together, so all see the best hit from before the leaf. The outcome is the same
+  // as with the best hit of the moment: what lies beyond it does not replace it.
   const Registers& r = registers_[slot];
   const accel::LeafTriangle& triangle = image_.triangle(accel::leaf_first(leaf) + static_cast<unsigned>(index));
   const auto result = intersect::triangle_test(r.ray, triangle.v0, triangle.v1, triangle.v2, r.best.t);

@@ -1,5 +1,5 @@
-// Outcomes computed from rays and image, with the arithmetic of model/intersect and model/cull. Where steps are recorded
-// too, every event is compared with the recorded one.
+// Outcomes computed from rays and image, with the arithmetic of model/intersect and model/cull. Where steps are
+// recorded too, every event is compared with the recorded one.
 #pragma once
 
 #include <cstdint>
@@ -47,10 +47,10 @@ class ExecSource {
     intersect::PreparedRay ray;
     intersect::SlabTimes times;
     intersect::Hit best;
-    reference::Step step;                     ///< the visit's event so far
+    reference::Step step;  ///< the visit's event so far
     const reference::Step *recorded = nullptr, *recorded_end = nullptr;
     std::uint8_t recorded_tail = 0;
-    std::uint8_t dropped = 0;                 ///< since the last visit
+    std::uint8_t dropped = 0;  ///< since the last visit
     std::uint32_t key[intersect::kLanes] = {};
     std::uint64_t touched[intersect::kLanes][kMaxWords] = {};  ///< of comparators
     float stack_t0[kMaxStackEntries] = {};

@@ -1,5 +1,5 @@
-// hit_update: writes the best hit of a context, nearer first, equal t to the lower primitive. After the last triangle of a
-// leaf the ray goes on to the stack, or is finished if any hit is enough and it has one.
+// hit_update: writes the best hit of a context, nearer first, equal t to the lower primitive. After the last triangle
+// of a leaf the ray goes on to the stack, or is finished if any hit is enough and it has one.
 //
 //   in   tested  outcomes of triangle tests
 //   out  done    contexts whose leaf is finished

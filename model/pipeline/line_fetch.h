@@ -4,12 +4,12 @@
 //   in   fills      lines that memory has answered, by miss register
 //   out  misses     lines asked of memory; the id is the miss register
 //   out  done       contexts all of whose lines are there, in the order of completion
-//   A token taken in cycle t looks up its first line in t, and up to `ports` lines a cycle. When the last of n lines has
-//   been looked up, in cycle t + ceil(n / ports) - 1, and all of them hit, the data are read hit_latency cycles later, and
-//   the token leaves in the cycle behind that. One new line a cycle can be asked of memory. A line that misses takes a miss register and goes to memory, or joins the
-//   register that waits for the same line. A line that comes back takes the tag port for its cycle; contexts that waited
-//   for nothing else can leave in the next cycle, one a cycle, in turn by number.
-//   stalls: mshrs_full, memory_port_full, fill_port, output_full, memory
+//   A token taken in cycle t looks up its first line in t, and up to `ports` lines a cycle. When the last of n lines
+//   has been looked up, in cycle t + ceil(n / ports) - 1, and all of them hit, the data are read hit_latency cycles
+//   later, and the token leaves in the cycle behind that. One new line a cycle can be asked of memory. A line that
+//   misses takes a miss register and goes to memory, or joins the register that waits for the same line. A line that
+//   comes back takes the tag port for its cycle; contexts that waited for nothing else can leave in the next cycle, one
+//   a cycle, in turn by number. stalls: mshrs_full, memory_port_full, fill_port, output_full, memory
 #pragma once
 
 #include <array>
@@ -68,7 +68,9 @@ class LineFetch {
     account.set(now, activity(lookup, moved, blocked_by_output));
     return moved;
   }
-  Cycle next_event(Cycle) const { return reading_head_ == reading_tail_ ? kNever : reading_[reading_head_ & kRingMask].due; }
+  Cycle next_event(Cycle) const {
+    return reading_head_ == reading_tail_ ? kNever : reading_[reading_head_ & kRingMask].due;
+  }
 
   const Counters& counters() const { return counters_; }
   const CacheTags& tags() const { return tags_; }

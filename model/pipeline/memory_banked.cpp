@@ -19,8 +19,7 @@ BankedMemory::BankedMemory(const MemoryConfig& config)
     channel.answers.resize(512);
     static_assert(512 >= kMaxOutstandingReads);
     // Channels refresh one after the other, not all at once.
-    if (config.t_rfc > 0)
-      channel.next_refresh = static_cast<Cycle>(config.t_refi) * (c + 1) / channels_.size();
+    if (config.t_rfc > 0) channel.next_refresh = static_cast<Cycle>(config.t_refi) * (c + 1) / channels_.size();
   }
 }
 
@@ -91,8 +90,8 @@ void BankedMemory::serve(Channel& channel, std::size_t chosen, Cycle now) {
 void BankedMemory::refresh_until(Channel& channel, Cycle now) {
   while (channel.next_refresh <= now) {
     for (Bank& bank : channel.banks) {
-      const Cycle closed = bank.row == Bank::kClosed ? channel.next_refresh
-                                                     : std::max(channel.next_refresh, bank.can_precharge);
+      const Cycle closed =
+          bank.row == Bank::kClosed ? channel.next_refresh : std::max(channel.next_refresh, bank.can_precharge);
       bank.row = Bank::kClosed;
       bank.can_activate = closed + static_cast<Cycle>(config_.t_rfc);
     }

@@ -3,8 +3,8 @@
 // the one whose column access can come earliest, unless the oldest has waited longer than the age cap. The request's
 // activation and precharge are placed in time then and there. All times in cycles of the unit's clock.
 //
-// Closed forms (tests/pipeline/memory_test.cpp): an unloaded random read takes front + tRP + tRCD + tCL + burst when its
-// bank has another row open, front + tCL + burst when its row is open; streaming keeps the bus busy.
+// Closed forms (tests/pipeline/memory_test.cpp): an unloaded random read takes front + tRP + tRCD + tCL + burst when
+// its bank has another row open, front + tCL + burst when its row is open; streaming keeps the bus busy.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,9 @@ class BankedMemory {
   /// One cycle: each channel decides about its next data slot if it is time to. Whether one did.
   bool work(Cycle now);
   bool answer_ready(Cycle now) const { return next_answer_ <= now; }
-  const ClientAnswer& answer() const { return channels_[answering_].answers[channels_[answering_].first_answer].answer; }
+  const ClientAnswer& answer() const {
+    return channels_[answering_].answers[channels_[answering_].first_answer].answer;
+  }
   void take_answer();
   Cycle next_event(Cycle now) const;
   bool empty() const { return waiting_ == 0 && unanswered_ == 0; }
@@ -53,7 +55,7 @@ class BankedMemory {
     Cycle due;
   };
   struct Channel {
-    std::vector<Waiting> queue;   // oldest first
+    std::vector<Waiting> queue;  // oldest first
     std::vector<Bank> banks;
     std::vector<Answer> answers;  // a ring, in the order of the bus
     std::size_t first_answer = 0, answer_count = 0;

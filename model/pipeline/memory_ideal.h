@@ -22,7 +22,8 @@ class IdealMemory {
   bool can_accept(Cycle now) const { return now >= next_accept_; }
   void accept(Cycle now, const ClientRequest& request) {
     next_accept_ = now + interval_;
-    if (!request.request.write) ring_[tail_++ & (ring_.size() - 1)] = {{request.client, request.request.id}, now + latency_};
+    if (!request.request.write)
+      ring_[tail_++ & (ring_.size() - 1)] = {{request.client, request.request.id}, now + latency_};
   }
   bool answer_ready(Cycle now) const { return head_ != tail_ && ring_[head_ & (ring_.size() - 1)].due <= now; }
   const ClientAnswer& answer() const { return ring_[head_ & (ring_.size() - 1)].answer; }

@@ -1,9 +1,9 @@
 // memory_port: the unit's one port to memory. Node fetch, leaf fetch and the stack's spills take turns at it.
 //
 //   in   requests[client], out answers[client]
-//   One request a cycle goes to memory, chosen round-robin among the clients whose request memory can take; one answer a
-//   cycle comes back, in the order in which memory has them ready. An answer ready in cycle t is pushed in t.
-//   stalls: output_full (an answer is ready and its client takes none), memory (requests wait for memory)
+//   One request a cycle goes to memory, chosen round-robin among the clients whose request memory can take; one answer
+//   a cycle comes back, in the order in which memory has them ready. An answer ready in cycle t is pushed in t. stalls:
+//   output_full (an answer is ready and its client takes none), memory (requests wait for memory)
 #pragma once
 
 #include "model/pipeline/accounting.h"
@@ -24,13 +24,13 @@ class MemoryPort {
 
   /// `clients`: how many of the clients are there; without spills the stack is left out.
   MemoryPort(const UnitConfig& config, int clients)
-      : clients_(clients), banked_(config.memory.model == MemoryModel::Banked), ideal_memory_(config.memory),
+      : clients_(clients),
+        banked_(config.memory.model == MemoryModel::Banked),
+        ideal_memory_(config.memory),
         banked_memory_(config.memory) {}
 
   bool step(Cycle now) { return banked_ ? step_over(banked_memory_, now) : step_over(ideal_memory_, now); }
-  Cycle next_event(Cycle now) const {
-    return banked_ ? banked_memory_.next_event(now) : ideal_memory_.next_event(now);
-  }
+  Cycle next_event(Cycle now) const { return banked_ ? banked_memory_.next_event(now) : ideal_memory_.next_event(now); }
 
   std::uint64_t requests_of(Client client) const { return granted_[static_cast<int>(client)]; }
   std::uint64_t writes() const { return writes_; }
@@ -57,7 +57,7 @@ class MemoryPort {
     moved |= memory.work(now);
     moved |= grant == Grant::Given;
     account.set(now, blocked                    ? Activity::OutputFull
-                     : grant == Grant::Refused ? Activity::Memory
+                     : grant == Grant::Refused  ? Activity::Memory
                      : moved || !memory.empty() ? Activity::Busy
                                                 : Activity::Idle);
     return moved;

@@ -1,5 +1,5 @@
-// What the sources of outcomes share: replay_source.h feeds recorded outcomes, exec_source.h computes them. A stage asks
-// its source at the moment it takes a token; which source it is, is a template parameter of the whole unit.
+// What the sources of outcomes share: replay_source.h feeds recorded outcomes, exec_source.h computes them. A stage
+// asks its source at the moment it takes a token; which source it is, is a template parameter of the whole unit.
 #pragma once
 
 #include <cstdint>

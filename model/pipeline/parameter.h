@@ -15,9 +15,9 @@ struct UnitConfig;
 using ParameterValue = std::variant<bool, std::int64_t, std::string>;
 
 struct Parameter {
-  std::string key;                   ///< as in TOML and --set: "node_cache.ways"
-  std::string unit;                  ///< "cycles", "bytes", "entries", ... or "" for a choice
-  std::string description;           ///< meaning, and where the default comes from
+  std::string key;          ///< as in TOML and --set: "node_cache.ways"
+  std::string unit;         ///< "cycles", "bytes", "entries", ... or "" for a choice
+  std::string description;  ///< meaning, and where the default comes from
   ParameterValue default_value;
   std::int64_t minimum = 0, maximum = 0;  ///< of integers
   bool power_of_two = false;

@@ -1,5 +1,5 @@
-// The inside of a pipelined stage: `latency` registers in a row with one enable. A token that enters in cycle t leaves in
-// cycle t + latency; when it cannot leave, the whole row stands still, bubbles included, and nothing enters.
+// The inside of a pipelined stage: `latency` registers in a row with one enable. A token that enters in cycle t leaves
+// in cycle t + latency; when it cannot leave, the whole row stands still, bubbles included, and nothing enters.
 #pragma once
 
 #include <cstdint>

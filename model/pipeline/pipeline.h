@@ -2,7 +2,8 @@
 //
 //   ray_queue -> scheduler -> node_fetch -> box_test -> [cell_locate -> mask_test ->] child_sort -> traversal_stack
 //                    |  ^         |                                                                  |  ^    |
-//                    |  +---------|------------------------------------------------------------------+  |    +-> result_queue
+//                    |  +---------|------------------------------------------------------------------+  |    +->
+//                    result_queue
 //                    +-> leaf_fetch -> triangle_test -> hit_update ------------------------------------+
 //                  memory_port <-> node_fetch, leaf_fetch [, traversal_stack]
 //
@@ -111,11 +112,8 @@ void if_present(std::optional<Holder>& holder, Visit&& visit) {
 /// Calls `visit(stage)` for every stage that is there.
 template <class Source, class Wiring, class Visit>
 void for_each_stage(Stages<Source, Wiring>& stages, Visit&& visit) {
-  std::apply(
-      [&](auto&... holder) {
-        (if_present(holder, [&](auto& present) { visit(Wiring::stage(present)); }), ...);
-      },
-      stages.all());
+  std::apply([&](auto&... holder) { (if_present(holder, [&](auto& present) { visit(Wiring::stage(present)); }), ...); },
+             stages.all());
 }
 
 /// Every ray of the feed has been returned and checked.

@@ -12,9 +12,9 @@ namespace ctu::pipeline {
 
 struct LinkProbe {
   std::string name;
-  std::function<bool(Cycle)> valid;   ///< something can be popped
-  std::function<bool(Cycle)> ready;   ///< something can be pushed
-  std::function<int()> occupancy;     ///< entries, at the start of a cycle
+  std::function<bool(Cycle)> valid;  ///< something can be popped
+  std::function<bool(Cycle)> ready;  ///< something can be pushed
+  std::function<int()> occupancy;    ///< entries, at the start of a cycle
 };
 
 struct Probes {

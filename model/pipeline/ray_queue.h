@@ -51,9 +51,9 @@ class RayQueue {
         take(now);
         moved = true;
       }
-      account.set(now, waits && !moved && setup_.empty()          ? Activity::NoContext
-                       : moved || !setup_.empty() ? Activity::Busy
-                                                  : Activity::Idle);
+      account.set(now, waits && !moved && setup_.empty() ? Activity::NoContext
+                       : moved || !setup_.empty()        ? Activity::Busy
+                                                         : Activity::Idle);
     }
     if (freed.can_pop(now)) {
       free_[(first_free_ + free_count_++) % free_.size()] = freed.front().slot;

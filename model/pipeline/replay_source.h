@@ -44,10 +44,13 @@ class ReplaySource {
   /// A visit begins.
   void visit(Slot slot, accel::ChildRef ref) {
     const Registers& r = registers_[slot];
-    if (r.step == r.end || r.step->ref != ref || r.drops_left != 0) [[unlikely]] refuse_visit(slot, ref);
+    if (r.step == r.end || r.step->ref != ref || r.drops_left != 0) [[unlikely]]
+      refuse_visit(slot, ref);
   }
 
-  std::uint8_t box_test(Slot slot, accel::ChildRef) { return static_cast<std::uint8_t>(registers_[slot].step->box_hits()); }
+  std::uint8_t box_test(Slot slot, accel::ChildRef) {
+    return static_cast<std::uint8_t>(registers_[slot].step->box_hits());
+  }
   void locate(Slot, unsigned) {}
   LaneKeys keys(Slot slot, unsigned hits) {
     LaneKeys keys;
@@ -62,7 +65,9 @@ class ReplaySource {
     const reference::Step& step = *registers_[slot].step;
     return {static_cast<std::uint8_t>(step.survivors()), static_cast<std::uint8_t>(step.uncertain())};
   }
-  std::uint8_t child_order(Slot slot, unsigned) { return static_cast<std::uint8_t>(registers_[slot].step->detail & 0xFFu); }
+  std::uint8_t child_order(Slot slot, unsigned) {
+    return static_cast<std::uint8_t>(registers_[slot].step->detail & 0xFFu);
+  }
 
   void pushed(Slot, int, int) {}
   /// A pop begins: `drops` of the recording are due first.

@@ -37,9 +37,10 @@ std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& ima
   if (config.mask_test.design == cull::Design::None)
     lines.push_back("cell_locate and mask_test: the unit does not cull; two stages, two links and their tables");
   if (image.stack_bound() <= config.stack.entries)
-    lines.push_back(fmt::format("spills of traversal_stack and their memory client: no ray of this tree can hold more than "
-                                "{} entries, there are {}; two links",
-                                image.stack_bound(), config.stack.entries));
+    lines.push_back(
+        fmt::format("spills of traversal_stack and their memory client: no ray of this tree can hold more than "
+                    "{} entries, there are {}; two links",
+                    image.stack_bound(), config.stack.entries));
   const int spare_entries = config.stack.entries - deepest_stack;
   if (spare_entries > 0)
     lines.push_back(fmt::format("could be left out: {} of {} stack entries, never used; {} bits", spare_entries,
@@ -54,8 +55,8 @@ std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& ima
   if (config.leaf_cache.bytes == 0) lines.push_back("tags and data of leaf_cache: configured away");
   if (config.node_cache.bytes == 0) lines.push_back("tags and data of node_cache: configured away");
   if (most_contexts < config.unit.contexts)
-    lines.push_back(fmt::format("could be left out: {} of {} contexts, never used", config.unit.contexts - most_contexts,
-                                config.unit.contexts));
+    lines.push_back(fmt::format("could be left out: {} of {} contexts, never used",
+                                config.unit.contexts - most_contexts, config.unit.contexts));
   const auto spare_mshrs = [&](const char* name, int most, int configured) {
     if (most < configured)
       lines.push_back(fmt::format("could be left out: {} of {} miss registers of {}, never used", configured - most,

@@ -64,8 +64,8 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
   counters.add("scheduler.most_ready", "rays", "most rays ready at once", Wiring::stage(stages.scheduler).most_ready());
   const auto add_fetch = [&](const auto& fetch) {
     const auto& c = fetch.counters();
-    counters.add_cache(std::string(fetch.account.stage()), c.lookups, c.hits, c.merges, fetch.tags().evictions(), c.fills,
-                       static_cast<std::uint64_t>(fetch.mshrs().most_in_use()));
+    counters.add_cache(std::string(fetch.account.stage()), c.lookups, c.hits, c.merges, fetch.tags().evictions(),
+                       c.fills, static_cast<std::uint64_t>(fetch.mshrs().most_in_use()));
     counters.add(std::string(fetch.account.stage()) + ".bytes", "bytes", "bytes that visits asked for", c.bytes);
   };
   add_fetch(node_fetch);
@@ -84,7 +84,8 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
     on_chip = &tables;
     counters.add("cell_locate.lanes", "lanes", "lanes located", Wiring::stage(*stages.cell_locate).lanes());
     counters.add("mask_test.reads", "reads", "table reads, those of one row in one cycle once", tables.reads());
-    counters.add("mask_test.shared_reads", "reads", "reads saved because another lane read the same row", tables.shared_reads());
+    counters.add("mask_test.shared_reads", "reads", "reads saved because another lane read the same row",
+                 tables.shared_reads());
     counters.add("mask_test.table_bits", "bits", "tables on chip", tables.bits());
     counters.add("mask_test.rows", "rows", "rows of all tables on chip",
                  tables.rows() * static_cast<std::uint64_t>(tables.tables()));
@@ -102,9 +103,8 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
 
   result.ray_cycles = ray_cycles(state.contexts);
   result.ray_latency_sum = state.contexts.latency_sum();
-  result.left_out = left_out(state.config, state.image, on_chip, pushed.deepest,
-                             state.contexts.most_occupied(), node_fetch.mshrs().most_in_use(),
-                             leaf_fetch.mshrs().most_in_use());
+  result.left_out = left_out(state.config, state.image, on_chip, pushed.deepest, state.contexts.most_occupied(),
+                             node_fetch.mshrs().most_in_use(), leaf_fetch.mshrs().most_in_use());
   result.event_log_hash = state.log.timed_hash();
   return result;
 }

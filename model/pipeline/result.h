@@ -11,7 +11,7 @@
 namespace ctu::pipeline {
 
 struct Cause {
-  std::string name;         ///< "output_full", "bank_conflict", "mshr_full", ...
+  std::string name;  ///< "output_full", "bank_conflict", "mshr_full", ...
   std::string description;
   std::uint64_t cycles = 0;
 };
@@ -36,16 +36,17 @@ struct WrongHit {
 
 struct UnitResult {
   std::uint64_t cycles = 0;
-  std::uint64_t rays = 0;              ///< returned and checked
+  std::uint64_t rays = 0;  ///< returned and checked
   std::uint64_t wrong_hits = 0;
-  std::vector<WrongHit> first_wrong;   ///< up to 16
-  reference::Counts counts;            ///< as the unit counted them
+  std::vector<WrongHit> first_wrong;  ///< up to 16
+  reference::Counts counts;           ///< as the unit counted them
   std::vector<StageAccount> stages;
-  std::vector<Counter> counters;       ///< cache, memory, tables, stack, queues
-  std::vector<Cause> ray_cycles;       ///< where rays spent their time; sums to ray_latency_sum
-  std::uint64_t ray_latency_sum = 0;   ///< cycles from a ray's entry into its context to its return, summed over rays
-  std::vector<std::string> left_out;   ///< stages and tables this run does not need, and what that saved (contract 5)
-  std::uint64_t event_log_hash = 0;    ///< over (cycle, ray, step) of every visit and return: equal in every execution mode
+  std::vector<Counter> counters;      ///< cache, memory, tables, stack, queues
+  std::vector<Cause> ray_cycles;      ///< where rays spent their time; sums to ray_latency_sum
+  std::uint64_t ray_latency_sum = 0;  ///< cycles from a ray's entry into its context to its return, summed over rays
+  std::vector<std::string> left_out;  ///< stages and tables this run does not need, and what that saved (contract 5)
+  std::uint64_t event_log_hash =
+      0;  ///< over (cycle, ray, step) of every visit and return: equal in every execution mode
 };
 
 }  // namespace ctu::pipeline

@@ -1,5 +1,5 @@
-// result_queue: returns finished rays, one each result.interval cycles, compares the hit with the expected one bit for bit,
-// and frees the context.
+// result_queue: returns finished rays, one each result.interval cycles, compares the hit with the expected one bit for
+// bit, and frees the context.
 //
 //   in   from_stack  finished rays
 //   in   from_rays   rays that visited nothing

@@ -1,5 +1,5 @@
-// What travels on the links: flat records of a few bytes. Bulky data of a ray (its registers, the slab test's times, ray
-// masks) stays in its context, as in the hardware's register files, and the token names the context.
+// What travels on the links: flat records of a few bytes. Bulky data of a ray (its registers, the slab test's times,
+// ray masks) stays in its context, as in the hardware's register files, and the token names the context.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,8 @@
 //     s survivors: pushes up to push_width a cycle, farthest first; the nearest goes straight to the scheduler, in the
 //       cycle of the last push, so s <= push_width + 1 take one cycle. When the context's entries are full, the oldest
 //       spill_batch of them are written to memory first, one cycle.
-//     none: pops one entry a cycle; those beyond the best hit are dropped, the first other one goes to the scheduler. When
+//     none: pops one entry a cycle; those beyond the best hit are dropped, the first other one goes to the scheduler.
+//     When
 //       none is on chip but some are spilled, a batch is read back, and the ray waits aside while others are served.
 //   The next token is taken in the last cycle of the one before. Inputs take turns.
 //   stalls: output_full, spill
@@ -91,9 +92,12 @@ class TraversalStack {
   /// One cycle on the current job: Busy when it went on, else why it stands.
   Activity work(Cycle now) {
     switch (job_) {
-      case Job::Push: return push(now);
-      case Job::Pop: return pop(now);
-      default: return finish(now);
+      case Job::Push:
+        return push(now);
+      case Job::Pop:
+        return pop(now);
+      default:
+        return finish(now);
     }
   }
 

@@ -45,9 +45,7 @@ class TriangleTest {
       test_next(now);
       moved = true;
     }
-    account.set(now, waits && !enters             ? Activity::Interval
-                     : moved || !pipe_.empty() ? Activity::Busy
-                                               : Activity::Idle);
+    account.set(now, waits && !enters ? Activity::Interval : moved || !pipe_.empty() ? Activity::Busy : Activity::Idle);
     return moved;
   }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }

@@ -18,9 +18,16 @@ struct Range {
 /// `field` gives the member of a configuration, constant or not.
 template <class Field>
 Parameter integer(std::string key, std::string unit, Range range, Field field, std::string description) {
-  Parameter parameter{std::move(key), std::move(unit), std::move(description), std::int64_t{0},
-                      range.minimum,  range.maximum,   range.power_of_two,     {},
-                      {},             {}};
+  Parameter parameter{std::move(key),
+                      std::move(unit),
+                      std::move(description),
+                      std::int64_t{0},
+                      range.minimum,
+                      range.maximum,
+                      range.power_of_two,
+                      {},
+                      {},
+                      {}};
   const UnitConfig defaults;
   parameter.default_value = static_cast<std::int64_t>(field(defaults));
   parameter.get = [field](const UnitConfig& config) -> ParameterValue {
@@ -35,7 +42,8 @@ Parameter integer(std::string key, std::string unit, Range range, Field field, s
 
 /// A choice among names: the member's value is the position of its name in `names`.
 template <class Value, class Field>
-Parameter choice(std::string key, std::vector<std::pair<std::string, Value>> names, Field field, std::string description) {
+Parameter choice(std::string key, std::vector<std::pair<std::string, Value>> names, Field field,
+                 std::string description) {
   Parameter parameter;
   parameter.key = std::move(key);
   parameter.description = std::move(description);
@@ -63,19 +71,20 @@ constexpr std::int64_t kMaxLatency = 100;  // of a pipelined stage, cycles
 using Parameters = std::vector<Parameter>;
 
 void add_front_end(Parameters& list) {
-  list.push_back(integer("unit.contexts", "rays", {1, 256}, [](auto& c) -> auto& { return c.unit.contexts; },
-                         "Ray contexts, one ray each. 32 hides the 30-cycle pipeline at one visit a cycle; published units "
-                         "hold 32 to 256 rays."));
-  list.push_back(integer("unit.batch_cycles", "cycles", {1, 1000000},
-                         [](auto& c) -> auto& { return c.unit.batch_cycles; },
-                         "Cycles per SystemC activation in batch mode. Never changes a result: the memory is inside the "
-                         "batch. From 16 on the kernel's cost is hidden (measured)."));
-  list.push_back(integer("ray_setup.latency", "cycles", {1, kMaxLatency},
-                         [](auto& c) -> auto& { return c.ray_setup.latency; },
-                         "Reciprocal bounds and shear: select 1, divide 16, directed neighbour 1, write 2."));
-  list.push_back(integer("ray_setup.interval", "cycles", {1, kMaxLatency},
-                         [](auto& c) -> auto& { return c.ray_setup.interval; },
-                         "Cycles between rays: six divisions on two pipelined dividers."));
+  list.push_back(integer(
+      "unit.contexts", "rays", {1, 256}, [](auto& c) -> auto& { return c.unit.contexts; },
+      "Ray contexts, one ray each. 32 hides the 30-cycle pipeline at one visit a cycle; published units "
+      "hold 32 to 256 rays."));
+  list.push_back(integer(
+      "unit.batch_cycles", "cycles", {1, 1000000}, [](auto& c) -> auto& { return c.unit.batch_cycles; },
+      "Cycles per SystemC activation in batch mode. Never changes a result: the memory is inside the "
+      "batch. From 16 on the kernel's cost is hidden (measured)."));
+  list.push_back(integer(
+      "ray_setup.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.ray_setup.latency; },
+      "Reciprocal bounds and shear: select 1, divide 16, directed neighbour 1, write 2."));
+  list.push_back(integer(
+      "ray_setup.interval", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.ray_setup.interval; },
+      "Cycles between rays: six divisions on two pipelined dividers."));
   list.push_back(choice<SchedulerPolicy>(
       "scheduler.policy", {{"oldest", SchedulerPolicy::Oldest}, {"round-robin", SchedulerPolicy::RoundRobin}},
       [](auto& c) -> auto& { return c.scheduler.policy; },
@@ -84,116 +93,148 @@ void add_front_end(Parameters& list) {
 
 template <class Cache>
 void add_cache(Parameters& list, const std::string& name, const std::string& what, Cache cache) {
-  list.push_back(integer(name + ".bytes", "bytes", {0, 1 << 26}, [cache](auto& c) -> auto& { return cache(c).bytes; },
-                         "Cache of " + what + "; 0: none, every line comes from memory. 64 KiB is an L1 of published "
-                         "ray-tracing models."));
-  list.push_back(integer(name + ".ways", "ways", {1, 16}, [cache](auto& c) -> auto& { return cache(c).ways; },
-                         "Lines that one set holds; least recently used goes first."));
-  list.push_back(integer(name + ".hit_latency", "cycles", {1, 100},
-                         [cache](auto& c) -> auto& { return cache(c).hit_latency; },
-                         "From the lookup of the last line to its data: tag, data, align."));
-  list.push_back(integer(name + ".ports", "lines", {1, 8}, [cache](auto& c) -> auto& { return cache(c).ports; },
-                         "Lines of one " + what + " looked up in a cycle."));
-  list.push_back(integer(name + ".mshrs", "registers", {1, 64}, [cache](auto& c) -> auto& { return cache(c).mshrs; },
-                         "Lines under way from memory at once; published models use 8 to 64."));
+  list.push_back(integer(
+      name + ".bytes", "bytes", {0, 1 << 26}, [cache](auto& c) -> auto& { return cache(c).bytes; },
+      "Cache of " + what +
+          "; 0: none, every line comes from memory. 64 KiB is an L1 of published "
+          "ray-tracing models."));
+  list.push_back(integer(
+      name + ".ways", "ways", {1, 16}, [cache](auto& c) -> auto& { return cache(c).ways; },
+      "Lines that one set holds; least recently used goes first."));
+  list.push_back(integer(
+      name + ".hit_latency", "cycles", {1, 100}, [cache](auto& c) -> auto& { return cache(c).hit_latency; },
+      "From the lookup of the last line to its data: tag, data, align."));
+  list.push_back(integer(
+      name + ".ports", "lines", {1, 8}, [cache](auto& c) -> auto& { return cache(c).ports; },
+      "Lines of one " + what + " looked up in a cycle."));
+  list.push_back(integer(
+      name + ".mshrs", "registers", {1, 64}, [cache](auto& c) -> auto& { return cache(c).mshrs; },
+      "Lines under way from memory at once; published models use 8 to 64."));
 }
 
 void add_memory(Parameters& list) {
   const auto add = [&](const char* key, const char* unit, Range range, auto field, const char* text) {
     list.push_back(integer(std::string("memory.") + key, unit, range, field, text));
   };
-  list.push_back(choice<MemoryModel>("memory.model", {{"ideal", MemoryModel::Ideal}, {"banked", MemoryModel::Banked}},
-                                     [](auto& c) -> auto& { return c.memory.model; },
-                                     "ideal: fixed latency and bandwidth. banked: channels, banks, open rows and "
-                                     "refresh; a fixed latency understates what a smaller cache costs (measured: by 14 "
-                                     "points and more)."));
-  add("line_bytes", "bytes", {32, 512, true}, [](auto& c) -> auto& { return c.memory.line_bytes; },
+  list.push_back(choice<MemoryModel>(
+      "memory.model", {{"ideal", MemoryModel::Ideal}, {"banked", MemoryModel::Banked}},
+      [](auto& c) -> auto& { return c.memory.model; },
+      "ideal: fixed latency and bandwidth. banked: channels, banks, open rows and "
+      "refresh; a fixed latency understates what a smaller cache costs (measured: by 14 "
+      "points and more)."));
+  add(
+      "line_bytes", "bytes", {32, 512, true}, [](auto& c) -> auto& { return c.memory.line_bytes; },
       "Line of both caches and of every request to memory. 128 as in published GPU models.");
-  add("latency", "cycles", {1, 4096}, [](auto& c) -> auto& { return c.memory.latency; },
+  add(
+      "latency", "cycles", {1, 4096}, [](auto& c) -> auto& { return c.memory.latency; },
       "ideal: from request to answer. Published round trips are 60 to 400.");
-  add("interval", "cycles", {1, 4096}, [](auto& c) -> auto& { return c.memory.interval; },
+  add(
+      "interval", "cycles", {1, 4096}, [](auto& c) -> auto& { return c.memory.interval; },
       "ideal: cycles between lines: 128 bytes each 4 cycles are 32 bytes a cycle.");
-  add("channels", "channels", {1, 16, true}, [](auto& c) -> auto& { return c.memory.channels; },
+  add(
+      "channels", "channels", {1, 16, true}, [](auto& c) -> auto& { return c.memory.channels; },
       "banked: channels with a data bus each; neighbouring lines alternate.");
-  add("banks", "banks", {1, 64, true}, [](auto& c) -> auto& { return c.memory.banks; }, "banked: banks of a channel.");
-  add("row_bytes", "bytes", {512, 65536, true}, [](auto& c) -> auto& { return c.memory.row_bytes; },
+  add(
+      "banks", "banks", {1, 64, true}, [](auto& c) -> auto& { return c.memory.banks; }, "banked: banks of a channel.");
+  add(
+      "row_bytes", "bytes", {512, 65536, true}, [](auto& c) -> auto& { return c.memory.row_bytes; },
       "banked: bytes of an open row of one channel.");
-  add("front_latency", "cycles", {0, 4096}, [](auto& c) -> auto& { return c.memory.front_latency; },
+  add(
+      "front_latency", "cycles", {0, 4096}, [](auto& c) -> auto& { return c.memory.front_latency; },
       "banked: way to the memory controller and back, through what lies between, an L2 included.");
-  add("queue_depth", "requests", {1, 256}, [](auto& c) -> auto& { return c.memory.queue_depth; },
+  add(
+      "queue_depth", "requests", {1, 256}, [](auto& c) -> auto& { return c.memory.queue_depth; },
       "banked: requests that a channel chooses among.");
-  add("t_rcd", "cycles", {1, 1000}, [](auto& c) -> auto& { return c.memory.t_rcd; }, "banked: activate to access.");
-  add("t_rp", "cycles", {1, 1000}, [](auto& c) -> auto& { return c.memory.t_rp; }, "banked: precharge to activate.");
-  add("t_cl", "cycles", {1, 1000}, [](auto& c) -> auto& { return c.memory.t_cl; }, "banked: access to data.");
-  add("t_ras", "cycles", {1, 1000}, [](auto& c) -> auto& { return c.memory.t_ras; }, "banked: activate to precharge.");
-  add("burst", "cycles", {1, 256}, [](auto& c) -> auto& { return c.memory.burst; },
+  add(
+      "t_rcd", "cycles", {1, 1000}, [](auto& c) -> auto& { return c.memory.t_rcd; }, "banked: activate to access.");
+  add(
+      "t_rp", "cycles", {1, 1000}, [](auto& c) -> auto& { return c.memory.t_rp; }, "banked: precharge to activate.");
+  add(
+      "t_cl", "cycles", {1, 1000}, [](auto& c) -> auto& { return c.memory.t_cl; }, "banked: access to data.");
+  add(
+      "t_ras", "cycles", {1, 1000}, [](auto& c) -> auto& { return c.memory.t_ras; }, "banked: activate to precharge.");
+  add(
+      "burst", "cycles", {1, 256}, [](auto& c) -> auto& { return c.memory.burst; },
       "banked: cycles of a line on the data bus: 128 bytes in 8 cycles are 16 bytes a cycle and channel.");
-  add("t_rfc", "cycles", {0, 10000}, [](auto& c) -> auto& { return c.memory.t_rfc; },
+  add(
+      "t_rfc", "cycles", {0, 10000}, [](auto& c) -> auto& { return c.memory.t_rfc; },
       "banked: length of a refresh; 0: no refresh.");
-  add("t_refi", "cycles", {100, 1000000}, [](auto& c) -> auto& { return c.memory.t_refi; },
+  add(
+      "t_refi", "cycles", {100, 1000000}, [](auto& c) -> auto& { return c.memory.t_refi; },
       "banked: cycles between refreshes.");
-  add("age_cap", "cycles", {1, 1000000}, [](auto& c) -> auto& { return c.memory.age_cap; },
+  add(
+      "age_cap", "cycles", {1, 1000000}, [](auto& c) -> auto& { return c.memory.age_cap; },
       "banked: a request older than this goes first, whatever its row.");
 }
 
 void add_node_path(Parameters& list) {
-  list.push_back(integer("box_test.latency", "cycles", {1, kMaxLatency},
-                         [](auto& c) -> auto& { return c.box_test.latency; },
-                         "Subtract 4, multiply 4, compare tree 3."));
-  list.push_back(integer("cell_locate.units", "lanes", {1, 4}, [](auto& c) -> auto& { return c.cell_locate.units; },
-                         "Lanes located at once. One unit shared by the few lanes hit costs +15 % on the box test, four cost "
-                         "+58 % (trial synthesis)."));
-  list.push_back(integer("cell_locate.latency", "cycles", {1, kMaxLatency},
-                         [](auto& c) -> auto& { return c.cell_locate.latency; },
-                         "Bisection on [t0, t1] for R = 4, adders and comparisons (trial synthesis: 10)."));
-  list.push_back(integer("comparators.units", "lanes", {1, 4}, [](auto& c) -> auto& { return c.comparators.units; },
-                         "Design comparators: lanes compared at once."));
-  list.push_back(integer("comparators.latency", "cycles", {1, kMaxLatency},
-                         [](auto& c) -> auto& { return c.comparators.latency; },
-                         "Design comparators: subtract 4, add 4, maximum and minimum 2, compare and AND 2."));
-  list.push_back(choice<cull::Design>("mask_test.design",
-                                      {{"none", cull::Design::None},
-                                       {"mask-lut", cull::Design::MaskLut},
-                                       {"projection", cull::Design::Projection},
-                                       {"comparators", cull::Design::Comparators}},
-                                      [](auto& c) -> auto& { return c.mask_test.design; },
-                                      "How the unit finds the cells a ray touches. projection gives the masks of mask-lut "
-                                      "from 1/21 to 1/1000 of the memory."));
-  list.push_back(integer("mask_test.latency", "cycles", {1, kMaxLatency},
-                         [](auto& c) -> auto& { return c.mask_test.latency; },
-                         "Table read 1, expand and AND 1 (trial synthesis: 2)."));
-  list.push_back(integer("mask_test.banks", "banks", {1, 64, true}, [](auto& c) -> auto& { return c.mask_test.banks; },
-                         "Banks of each table; row r lies in bank r mod banks."));
-  list.push_back(integer("mask_test.ports", "reads", {1, 4}, [](auto& c) -> auto& { return c.mask_test.ports; },
-                         "Reads that a bank answers in a cycle."));
-  list.push_back(integer("mask_test.projection_tables", "tables", {1, 3},
-                         [](auto& c) -> auto& { return c.mask_test.projection_tables; },
-                         "Design projection: 3, a table for each pair of axes, or 1, read three times a lane."));
-  list.push_back(integer("child_sort.latency", "cycles", {1, kMaxLatency},
-                         [](auto& c) -> auto& { return c.child_sort.latency; },
-                         "Five comparators in three rows."));
-  list.push_back(integer("stack.entries", "entries", {1, 64}, [](auto& c) -> auto& { return c.stack.entries; },
-                         "Stack entries of a context on chip, 8 bytes each; more are spilled to memory, never dropped."));
-  list.push_back(integer("stack.push_width", "entries", {1, 3}, [](auto& c) -> auto& { return c.stack.push_width; },
-                         "Entries pushed in a cycle: 2 banks."));
-  list.push_back(integer("stack.spill_batch", "entries", {1, 64, true},
-                         [](auto& c) -> auto& { return c.stack.spill_batch; },
-                         "Entries written or read back at once; at most a line's worth."));
+  list.push_back(integer(
+      "box_test.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.box_test.latency; },
+      "Subtract 4, multiply 4, compare tree 3."));
+  list.push_back(integer(
+      "cell_locate.units", "lanes", {1, 4}, [](auto& c) -> auto& { return c.cell_locate.units; },
+      "Lanes located at once. One unit shared by the few lanes hit costs +15 % on the box test, four cost "
+      "+58 % (trial synthesis)."));
+  list.push_back(integer(
+      "cell_locate.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.cell_locate.latency; },
+      "Bisection on [t0, t1] for R = 4, adders and comparisons (trial synthesis: 10)."));
+  list.push_back(integer(
+      "comparators.units", "lanes", {1, 4}, [](auto& c) -> auto& { return c.comparators.units; },
+      "Design comparators: lanes compared at once."));
+  list.push_back(integer(
+      "comparators.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.comparators.latency; },
+      "Design comparators: subtract 4, add 4, maximum and minimum 2, compare and AND 2."));
+  list.push_back(choice<cull::Design>(
+      "mask_test.design",
+      {{"none", cull::Design::None},
+       {"mask-lut", cull::Design::MaskLut},
+       {"projection", cull::Design::Projection},
+       {"comparators", cull::Design::Comparators}},
+      [](auto& c) -> auto& { return c.mask_test.design; },
+      "How the unit finds the cells a ray touches. projection gives the masks of mask-lut "
+      "from 1/21 to 1/1000 of the memory."));
+  list.push_back(integer(
+      "mask_test.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.mask_test.latency; },
+      "Table read 1, expand and AND 1 (trial synthesis: 2)."));
+  list.push_back(integer(
+      "mask_test.banks", "banks", {1, 64, true}, [](auto& c) -> auto& { return c.mask_test.banks; },
+      "Banks of each table; row r lies in bank r mod banks."));
+  list.push_back(integer(
+      "mask_test.ports", "reads", {1, 4}, [](auto& c) -> auto& { return c.mask_test.ports; },
+      "Reads that a bank answers in a cycle."));
+  list.push_back(integer(
+      "mask_test.projection_tables", "tables", {1, 3}, [](auto& c) -> auto& { return c.mask_test.projection_tables; },
+      "Design projection: 3, a table for each pair of axes, or 1, read three times a lane."));
+  list.push_back(integer(
+      "child_sort.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.child_sort.latency; },
+      "Five comparators in three rows."));
+  list.push_back(integer(
+      "stack.entries", "entries", {1, 64}, [](auto& c) -> auto& { return c.stack.entries; },
+      "Stack entries of a context on chip, 8 bytes each; more are spilled to memory, never dropped."));
+  list.push_back(integer(
+      "stack.push_width", "entries", {1, 3}, [](auto& c) -> auto& { return c.stack.push_width; },
+      "Entries pushed in a cycle: 2 banks."));
+  list.push_back(integer(
+      "stack.spill_batch", "entries", {1, 64, true}, [](auto& c) -> auto& { return c.stack.spill_batch; },
+      "Entries written or read back at once; at most a line's worth."));
 }
 
 void add_leaf_path(Parameters& list) {
-  list.push_back(integer("triangle_test.latency", "cycles", {1, kMaxLatency},
-                         [](auto& c) -> auto& { return c.triangle_test.latency; },
-                         "Translate 4, shear 8, edge functions 8, determinant 8, divide 16, range 1."));
-  list.push_back(integer("triangle_test.interval", "cycles", {1, kMaxLatency},
-                         [](auto& c) -> auto& { return c.triangle_test.interval; }, "Cycles between triangles."));
-  list.push_back(integer("hit_update.latency", "cycles", {1, kMaxLatency},
-                         [](auto& c) -> auto& { return c.hit_update.latency; }, "Compare 1, write 1."));
-  list.push_back(integer("result.interval", "cycles", {1, 1000}, [](auto& c) -> auto& { return c.result.interval; },
-                         "Cycles between returned rays."));
-  list.push_back(integer("watchdog.cycles", "cycles", {100, 1000000000},
-                         [](auto& c) -> auto& { return c.watchdog.cycles; },
-                         "When nothing moves for so long, the run ends with a report of every link and stage."));
+  list.push_back(integer(
+      "triangle_test.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.triangle_test.latency; },
+      "Translate 4, shear 8, edge functions 8, determinant 8, divide 16, range 1."));
+  list.push_back(integer(
+      "triangle_test.interval", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.triangle_test.interval; },
+      "Cycles between triangles."));
+  list.push_back(integer(
+      "hit_update.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.hit_update.latency; },
+      "Compare 1, write 1."));
+  list.push_back(integer(
+      "result.interval", "cycles", {1, 1000}, [](auto& c) -> auto& { return c.result.interval; },
+      "Cycles between returned rays."));
+  list.push_back(integer(
+      "watchdog.cycles", "cycles", {100, 1000000000}, [](auto& c) -> auto& { return c.watchdog.cycles; },
+      "When nothing moves for so long, the run ends with a report of every link and stage."));
 }
 
 [[noreturn]] void reject(const std::string& keys, const std::string& what, const std::string& remedy) {
@@ -230,8 +271,10 @@ const std::vector<Parameter>& parameters() {
   static const std::vector<Parameter> list = [] {
     Parameters all;
     add_front_end(all);
-    add_cache(all, "node_cache", "node", [](auto& c) -> auto& { return c.node_cache; });
-    add_cache(all, "leaf_cache", "leaf", [](auto& c) -> auto& { return c.leaf_cache; });
+    add_cache(
+        all, "node_cache", "node", [](auto& c) -> auto& { return c.node_cache; });
+    add_cache(
+        all, "leaf_cache", "leaf", [](auto& c) -> auto& { return c.leaf_cache; });
     add_memory(all);
     add_node_path(all);
     add_leaf_path(all);

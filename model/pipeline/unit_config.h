@@ -20,7 +20,7 @@ struct CacheConfig {
   int bytes = 65536;  ///< 0: no cache, every line comes from memory
   int ways = 4;
   int hit_latency = 3;
-  int ports = 1;      ///< lines looked up in a cycle
+  int ports = 1;  ///< lines looked up in a cycle
   int mshrs = 16;
 };
 

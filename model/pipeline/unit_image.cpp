@@ -24,7 +24,8 @@ UnitImage::UnitImage(const accel::Image& image, bool arithmetic)
     if (!arithmetic) continue;
     boxes_[n] = node.boxes;
     for (int lane = 0; lane < 4 && mask_words_ > 0; ++lane)
-      accel::read_mask(image, n, lane, masks_.data() + (static_cast<std::size_t>(n) * 4 + static_cast<unsigned>(lane)) * mask_words_);
+      accel::read_mask(image, n, lane,
+                       masks_.data() + (static_cast<std::size_t>(n) * 4 + static_cast<unsigned>(lane)) * mask_words_);
   }
   for (std::uint32_t t = 0; t < image.triangle_count; ++t) {
     const accel::LeafTriangle triangle = accel::read_triangle(image, t);

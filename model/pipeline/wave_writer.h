@@ -9,7 +9,8 @@
 
 namespace ctu::pipeline {
 
-/// One nanosecond of the dump is one cycle. Activities are numbers in the order of enum Activity, explained in the header.
+/// One nanosecond of the dump is one cycle. Activities are numbers in the order of enum Activity, explained in the
+/// header.
 class WaveWriter {
  public:
   /// Writes cycles [first, last]. Throws Error when the file cannot be written.

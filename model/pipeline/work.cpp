@@ -16,9 +16,10 @@ void check_fits(const UnitConfig& config, const Work& work, bool arithmetic) {
                 "the unit has " + std::string(cull::to_string(design)) + ", the tables were built for " +
                     std::string(cull::to_string(work.tester.design())),
                 "build the tables for the unit's design");
-  const int bits_needed = work.tester.options().resolution * work.tester.options().resolution *
-                          work.tester.options().resolution;
-  if (arithmetic && design != cull::Design::None && work.image.layout.mask_bits != static_cast<std::uint32_t>(bits_needed))
+  const int bits_needed =
+      work.tester.options().resolution * work.tester.options().resolution * work.tester.options().resolution;
+  if (arithmetic && design != cull::Design::None &&
+      work.image.layout.mask_bits != static_cast<std::uint32_t>(bits_needed))
     throw Error("image",
                 "its object masks have " + std::to_string(work.image.layout.mask_bits) + " bits, the tables need " +
                     std::to_string(bits_needed),

@@ -14,8 +14,8 @@ struct Work {
   reference::RayFeed& rays;
 };
 
-/// Throws Error where configuration and work do not fit: another design than the tester's, masks of another size, a stack
-/// that no context can hold. `arithmetic`: the unit computes.
+/// Throws Error where configuration and work do not fit: another design than the tester's, masks of another size, a
+/// stack that no context can hold. `arithmetic`: the unit computes.
 void check_fits(const UnitConfig& config, const Work& work, bool arithmetic);
 
 }  // namespace ctu::pipeline

@@ -12,7 +12,7 @@
 namespace ctu::reference {
 
 struct RayBlock {
-  std::uint64_t first_ray = 0;           ///< number of rays[0] in the whole trace
+  std::uint64_t first_ray = 0;  ///< number of rays[0] in the whole trace
   std::vector<intersect::Ray> rays;
   std::vector<intersect::Hit> expected;  ///< of the traversal without culling
   StepList steps;                        ///< empty when only rays are wanted (exec)

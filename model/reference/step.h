@@ -11,7 +11,8 @@
 namespace ctu::reference {
 
 /// One visit of a node or a leaf, 8 bytes.
-///   node: lanes = box hits (bits 0..3) | survivors of the mask test (bits 4..7); detail = visiting order of the survivors,
+///   node: lanes = box hits (bits 0..3) | survivors of the mask test (bits 4..7); detail = visiting order of the
+///   survivors,
 ///         nearest first, 2 bits each from bit 0, then uncertain lanes in bits 8..11
 ///   leaf: lanes = triangles tested (all of the leaf's; an any-hit ray that found one leaves after the leaf);
 ///         detail = bit i: triangle i became the best hit
@@ -33,8 +34,8 @@ struct Step {
 static_assert(sizeof(Step) == 8);
 
 /// The steps of many rays, one after the other. Steps of ray i: [first_step[i], first_step[i+1]).
-/// Keys (packed cull::CellKey, one for each box-hit lane in ascending lane order, node after node; present only for designs
-/// that read tables) of ray i: [first_key[i], first_key[i+1]).
+/// Keys (packed cull::CellKey, one for each box-hit lane in ascending lane order, node after node; present only for
+/// designs that read tables) of ray i: [first_key[i], first_key[i+1]).
 struct StepList {
   std::vector<std::uint64_t> first_step{0};
   std::vector<std::uint64_t> first_key{0};
@@ -49,13 +50,13 @@ struct StepList {
 /// Work of some rays in the paper's unit: a 4-wide box test or a triangle test counts one.
 struct Counts {
   std::uint64_t rays = 0;
-  std::uint64_t node_visits = 0;      ///< 4-wide box tests
+  std::uint64_t node_visits = 0;  ///< 4-wide box tests
   std::uint64_t triangle_tests = 0;
   std::uint64_t leaf_visits = 0;
-  std::uint64_t box_hits = 0;         ///< lanes hit by the slab test
-  std::uint64_t culled = 0;           ///< ... and thrown away by the mask test
-  std::uint64_t uncertain = 0;        ///< ... and passed because rounding left two candidate cells
-  std::uint64_t dropped = 0;          ///< stack entries dropped at the pop
+  std::uint64_t box_hits = 0;   ///< lanes hit by the slab test
+  std::uint64_t culled = 0;     ///< ... and thrown away by the mask test
+  std::uint64_t uncertain = 0;  ///< ... and passed because rounding left two candidate cells
+  std::uint64_t dropped = 0;    ///< stack entries dropped at the pop
 
   std::uint64_t intersections() const { return node_visits + triangle_tests; }
   double intersections_per_ray() const { return rays == 0 ? 0 : double(intersections()) / double(rays); }

@@ -45,8 +45,8 @@ VisitOrder sort_survivors(unsigned survivors, const float* t0) {
 template <bool kRecord>
 class Walk {
  public:
-  Walk(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester, const intersect::Ray& ray,
-       StepList* steps)
+  Walk(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester,
+       const intersect::Ray& ray, StepList* steps)
       : bvh_(bvh),
         masks_(masks),
         tester_(tester),
@@ -148,8 +148,9 @@ Traversal::Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, con
     : bvh_(bvh), masks_(masks), tester_(tester) {
   assert(masks != nullptr || tester.design() == cull::Design::None);
   if (stack_bound(bvh) > kMaxStackEntries)
-    throw Error("BVH", fmt::format("depth {} needs a traversal stack of {} entries; the limit is {}", bvh.depth,
-                                   stack_bound(bvh), kMaxStackEntries),
+    throw Error("BVH",
+                fmt::format("depth {} needs a traversal stack of {} entries; the limit is {}", bvh.depth,
+                            stack_bound(bvh), kMaxStackEntries),
                 "allow more triangles in a leaf");
 }
 

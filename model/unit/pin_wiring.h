@@ -1,9 +1,9 @@
-// Ports and links of pins mode: what a stage knows as In and Out are here SystemC ports of ready/valid signals, and a link
-// is a module of its own with two registers.
+// Ports and links of pins mode: what a stage knows as In and Out are here SystemC ports of ready/valid signals, and a
+// link is a module of its own with two registers.
 //
-// Two phases of the clock: at the rising edge links take over what was handed to them in the cycle before; at the falling
-// edge stages read their ports and drive them. So valid and ready of a link are registered, and a stage sees the state at
-// the start of the cycle, as with plain links.
+// Two phases of the clock: at the rising edge links take over what was handed to them in the cycle before; at the
+// falling edge stages read their ports and drive them. So valid and ready of a link are registered, and a stage sees
+// the state at the start of the cycle, as with plain links.
 #pragma once
 
 #include <exception>
@@ -22,10 +22,15 @@ namespace ctu::pipeline {
 
 // sc_signal wants to print what it carries.
 inline std::ostream& operator<<(std::ostream& out, const SlotToken& t) { return out << "slot " << t.slot; }
-inline std::ostream& operator<<(std::ostream& out, const RefToken& t) { return out << "slot " << t.slot << " ref " << t.ref; }
-inline std::ostream& operator<<(std::ostream& out, const LeafToken& t) { return out << "slot " << t.slot << " ref " << t.ref; }
+inline std::ostream& operator<<(std::ostream& out, const RefToken& t) {
+  return out << "slot " << t.slot << " ref " << t.ref;
+}
+inline std::ostream& operator<<(std::ostream& out, const LeafToken& t) {
+  return out << "slot " << t.slot << " ref " << t.ref;
+}
 inline std::ostream& operator<<(std::ostream& out, const NodeToken& t) {
-  return out << "slot " << t.slot << " hits " << int{t.hits} << " survivors " << int{t.survivors} << " order " << int{t.order};
+  return out << "slot " << t.slot << " hits " << int{t.hits} << " survivors " << int{t.survivors} << " order "
+             << int{t.order};
 }
 inline std::ostream& operator<<(std::ostream& out, const RecordedTest& t) {
   return out << "slot " << t.slot << " index " << int{t.index} << (t.last ? " last" : "");
@@ -53,8 +58,8 @@ struct PinShared {
   explicit PinShared(const sc_core::sc_clock& clock_) : clock(clock_) {}
   const sc_core::sc_clock& clock;
   Cycle now = 0;
-  bool moved = false;               ///< something moved in this cycle
-  std::exception_ptr failure;       ///< of a stage; the kernel must not see exceptions
+  bool moved = false;          ///< something moved in this cycle
+  std::exception_ptr failure;  ///< of a stage; the kernel must not see exceptions
   pipeline::Backpressure backpressure;
 };
 
@@ -66,7 +71,8 @@ class PinPort {
   virtual void end_cycle() = 0;
 };
 
-/// The module under construction: its ports put themselves into `ports`. Construction is single-threaded, as elaboration is.
+/// The module under construction: its ports put themselves into `ports`. Construction is single-threaded, as
+/// elaboration is.
 struct PinConstruction {
   PinShared* shared = nullptr;
   std::vector<PinPort*> ports;
@@ -89,8 +95,7 @@ class StageModule : public sc_core::sc_module {
 
  public:
   template <class First, class... Args>
-    requires(!std::is_same_v<First, Named>)
-  explicit StageModule(First&& first, Args&&... args)
+  requires(!std::is_same_v<First, Named>) explicit StageModule(First&& first, Args&&... args)
       : StageModule(Named{}, sc_core::sc_module_name(Stage::kName), std::forward<First>(first),
                     std::forward<Args>(args)...) {}
 
@@ -222,7 +227,8 @@ class LinkModule : public sc_core::sc_module {
     occupancy_.write(entries_);
   }
 
-  sc_core::sc_signal<bool> in_valid_{"in_valid"}, in_ready_{"in_ready"}, out_valid_{"out_valid"}, out_ready_{"out_ready"};
+  sc_core::sc_signal<bool> in_valid_{"in_valid"}, in_ready_{"in_ready"}, out_valid_{"out_valid"},
+      out_ready_{"out_ready"};
   sc_core::sc_signal<T> in_data_{"in_data"}, out_data_{"out_data"};
   sc_core::sc_signal<int> occupancy_{"occupancy"};
   T entry_[2] = {};

@@ -17,8 +17,8 @@ namespace {
 
 using pipeline::EngineOptions;
 
-/// Ends cycles: looks, at each rising edge, at what the cycle before has done. Signals still show that cycle then, as links
-/// write in the same delta cycle.
+/// Ends cycles: looks, at each rising edge, at what the cycle before has done. Signals still show that cycle then, as
+/// links write in the same delta cycle.
 class Watcher : public sc_core::sc_module {
  public:
   SC_HAS_PROCESS(Watcher);
@@ -66,7 +66,8 @@ class PinUnit {
     for_each_link(stages_, state_.has_spills, [&](const char* name, auto& out, auto& in) { join(name, out, in); });
     for_each_stage(stages_, [&](auto& stage) { probes_.stages.push_back(&stage.account); });
     if (!options.waves_path.empty())
-      waves_ = std::make_unique<pipeline::WaveWriter>(options.waves_path, probes_, options.waves_first, options.waves_last);
+      waves_ =
+          std::make_unique<pipeline::WaveWriter>(options.waves_path, probes_, options.waves_first, options.waves_last);
   }
 
   pipeline::UnitResult run() {

@@ -20,13 +20,17 @@ pipeline::EngineOptions engine_options(const RunOptions& options) {
   return engine;
 }
 
-pipeline::UnitResult run_mode(const pipeline::UnitConfig& config, const pipeline::Work& work, const RunOptions& options) {
+pipeline::UnitResult run_mode(const pipeline::UnitConfig& config, const pipeline::Work& work,
+                              const RunOptions& options) {
   if (options.mode == Mode::Pins) return run_pins(config, work, engine_options(options));
   const auto engine = pipeline::make_engine(config, work, engine_options(options));
   switch (options.mode) {
-    case Mode::Batch: return run_ticking(*engine, static_cast<pipeline::Cycle>(config.unit.batch_cycles));
-    case Mode::Cycle: return run_ticking(*engine, 1);
-    default: return pipeline::run_to_end(*engine);
+    case Mode::Batch:
+      return run_ticking(*engine, static_cast<pipeline::Cycle>(config.unit.batch_cycles));
+    case Mode::Cycle:
+      return run_ticking(*engine, 1);
+    default:
+      return pipeline::run_to_end(*engine);
   }
 }
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <functional>
-#include <stdexcept>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "model/accel/image.h"
@@ -36,10 +36,10 @@ struct Workload {
 struct RunOptions {
   Mode mode = Mode::Batch;
   Source source = Source::Replay;
-  std::string waves_path{};                    ///< VCD of the window, when not empty
+  std::string waves_path{};                       ///< VCD of the window, when not empty
   std::uint64_t waves_first = 0, waves_last = 0;  ///< cycles, inclusive
-  std::uint64_t stall_seed = 0;                ///< not 0: every link refuses at random, for tests
-  int stuck_link = -1;                         ///< this link never takes anything: a planted deadlock, for tests
+  std::uint64_t stall_seed = 0;                   ///< not 0: every link refuses at random, for tests
+  int stuck_link = -1;                            ///< this link never takes anything: a planted deadlock, for tests
   std::function<void(std::uint64_t rays_done)> progress{};
 };
 

@@ -5,8 +5,8 @@
 
 namespace ctu::unit {
 
-/// SystemC elaborates once per context; a new one is put in place here and taken away at the end. Everything built in it
-/// must be gone before. Not for two threads at a time.
+/// SystemC elaborates once per context; a new one is put in place here and taken away at the end. Everything built in
+/// it must be gone before. Not for two threads at a time.
 class Simulation {
  public:
   Simulation();

@@ -57,7 +57,7 @@ TEST_P(CellLocate, a_certain_key_names_the_floor_cells_of_the_exact_first_and_la
     // And of the points at the slab test's own times, which may lie outside the box.
     if (!std::isfinite(located.t0) || !std::isfinite(located.t1)) continue;
     ASSERT_TRUE(test::holds(located.key, test::exact_cell_at(c.ray, c.lo, c.hi, resolution, located.t0),
-                      test::exact_cell_at(c.ray, c.lo, c.hi, resolution, located.t1)))
+                            test::exact_cell_at(c.ray, c.lo, c.hi, resolution, located.t1)))
         << test::text(c);
   }
   RecordProperty("exact_cells_named", named);

@@ -21,8 +21,8 @@ struct ExactOverlap {
 ExactOverlap exact_overlap_cells(const intersect::Ray& ray, const Vec3& lo, const Vec3& hi, int resolution, float tmin,
                                  float tmax);
 
-/// Whether the sweep from the key's begin to its end holds the points of both cells for certain: the key names them, or it is
-/// a column of cells along one axis that has both in it.
+/// Whether the sweep from the key's begin to its end holds the points of both cells for certain: the key names them, or
+/// it is a column of cells along one axis that has both in it.
 bool holds(cull::CellKey key, const CellIndex& first, const CellIndex& last);
 
 }  // namespace ctu::test

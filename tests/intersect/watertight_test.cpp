@@ -81,12 +81,24 @@ void expect_no_leak(const std::string& name, const ClosedMesh& closed) {
 
 TEST(Watertight, a_sphere_leaks_no_aimed_ray) { expect_no_leak("sphere", test::closed_sphere(3)); }
 TEST(Watertight, a_lattice_cube_leaks_no_aimed_ray) { expect_no_leak("cube", test::closed_cube(10)); }
-TEST(Watertight, a_sphere_far_away_leaks_no_aimed_ray) { expect_no_leak("moved sphere", test::moved(test::closed_sphere(3))); }
-TEST(Watertight, a_lattice_cube_far_away_leaks_no_aimed_ray) { expect_no_leak("moved cube", test::moved(test::closed_cube(10))); }
-TEST(Watertight, a_tiny_sphere_leaks_no_aimed_ray) { expect_no_leak("sphere of size 1e-15", test::scaled(test::closed_sphere(3), 1e-15f)); }
-TEST(Watertight, a_tiny_cube_leaks_no_aimed_ray) { expect_no_leak("cube of size 1e-30", test::scaled(test::closed_cube(10), 1e-30f)); }
-TEST(Watertight, a_huge_sphere_leaks_no_aimed_ray) { expect_no_leak("sphere of size 1e15", test::scaled(test::closed_sphere(3), 1e15f)); }
-TEST(Watertight, a_huge_cube_leaks_no_aimed_ray) { expect_no_leak("cube of size 1e27", test::scaled(test::closed_cube(10), 1e27f)); }
+TEST(Watertight, a_sphere_far_away_leaks_no_aimed_ray) {
+  expect_no_leak("moved sphere", test::moved(test::closed_sphere(3)));
+}
+TEST(Watertight, a_lattice_cube_far_away_leaks_no_aimed_ray) {
+  expect_no_leak("moved cube", test::moved(test::closed_cube(10)));
+}
+TEST(Watertight, a_tiny_sphere_leaks_no_aimed_ray) {
+  expect_no_leak("sphere of size 1e-15", test::scaled(test::closed_sphere(3), 1e-15f));
+}
+TEST(Watertight, a_tiny_cube_leaks_no_aimed_ray) {
+  expect_no_leak("cube of size 1e-30", test::scaled(test::closed_cube(10), 1e-30f));
+}
+TEST(Watertight, a_huge_sphere_leaks_no_aimed_ray) {
+  expect_no_leak("sphere of size 1e15", test::scaled(test::closed_sphere(3), 1e15f));
+}
+TEST(Watertight, a_huge_cube_leaks_no_aimed_ray) {
+  expect_no_leak("cube of size 1e27", test::scaled(test::closed_cube(10), 1e27f));
+}
 
 }  // namespace
 }  // namespace ctu::intersect

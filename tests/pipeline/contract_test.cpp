@@ -192,7 +192,8 @@ TEST(Contract, a_stack_of_one_entry_spills_and_comes_back_exactly) {
   expect_same_answers(world, small, large.untimed_hash);
   const UnitResult& result = small.result;
   EXPECT_GT(counter(result, "stack.spills"), 100u);
-  EXPECT_EQ(counter(result, "memory.stack_requests"), counter(result, "stack.spills") + counter(result, "stack.refills"));
+  EXPECT_EQ(counter(result, "memory.stack_requests"),
+            counter(result, "stack.spills") + counter(result, "stack.refills"));
   EXPECT_LE(counter(result, "stack.refills"), counter(result, "stack.spills"));  // any-hit rays leave theirs behind
   EXPECT_EQ(counter(result, "stack.deepest"), counter(large.result, "stack.deepest"));
 }

@@ -304,7 +304,8 @@ TEST(Parameters, setting_one_changes_it_and_no_other) {
   for (const Parameter& changed : parameters()) {
     UnitConfig config;
     ParameterValue value = changed.default_value;
-    if (auto* number = std::get_if<std::int64_t>(&value)) *number = *number == changed.minimum ? changed.maximum : changed.minimum;
+    if (auto* number = std::get_if<std::int64_t>(&value))
+      *number = *number == changed.minimum ? changed.maximum : changed.minimum;
     if (auto* name = std::get_if<std::string>(&value)) *name = changed.choices[*name == changed.choices[0] ? 1 : 0];
     changed.set(config, value);
     for (const Parameter& parameter : parameters()) {
@@ -325,7 +326,8 @@ TEST(Parameters, combinations_that_cannot_be_are_refused_by_the_names_of_their_k
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(refused([](UnitConfig& c) { c.node_cache.bytes = 96 * 1024; }), "node_cache.bytes, node_cache.ways, memory.line_bytes");
+  EXPECT_EQ(refused([](UnitConfig& c) { c.node_cache.bytes = 96 * 1024; }),
+            "node_cache.bytes, node_cache.ways, memory.line_bytes");
   EXPECT_EQ(refused([](UnitConfig& c) { c.stack.entries = 4; }), "stack.spill_batch, stack.entries");
   EXPECT_EQ(refused([](UnitConfig& c) { c.memory.line_bytes = 32; }), "stack.spill_batch, memory.line_bytes");
   EXPECT_EQ(refused([](UnitConfig& c) { c.mask_test.banks = 3; }), "mask_test.banks");

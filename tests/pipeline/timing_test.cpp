@@ -25,23 +25,29 @@ Cycle lines_of(std::uint64_t address, std::uint64_t bytes, int line) {
 
 /// Cycles from taking a token to the cycle in which it is handed on, all lines missing or all hitting.
 Cycle fetch_time(const UnitConfig& c, const pipeline::CacheConfig& cache, Cycle lines, bool miss) {
-  if (!miss) return (lines + static_cast<Cycle>(cache.ports) - 1) / static_cast<Cycle>(cache.ports) - 1 +
-                    static_cast<Cycle>(cache.hit_latency) + 1;
+  if (!miss)
+    return (lines + static_cast<Cycle>(cache.ports) - 1) / static_cast<Cycle>(cache.ports) - 1 +
+           static_cast<Cycle>(cache.hit_latency) + 1;
   // The last line is asked for, waits for its turn, travels, is taken, and the ray leaves in the cycle behind that.
-  return 1 + (lines - 1) * static_cast<Cycle>(std::max(1, c.memory.interval)) + static_cast<Cycle>(c.memory.latency) + 1 + 1;
+  return 1 + (lines - 1) * static_cast<Cycle>(std::max(1, c.memory.interval)) + static_cast<Cycle>(c.memory.latency) +
+         1 + 1;
 }
 
-/// From the cycle in which a lonely ray takes its context to the cycle in which it is returned, for a root with one leaf.
+/// From the cycle in which a lonely ray takes its context to the cycle in which it is returned, for a root with one
+/// leaf.
 Cycle lonely_latency(const World& world, const UnitConfig& c, int triangles, bool miss) {
   const Cycle hop = 1;  // a token is taken in the cycle behind the one in which it was handed on
   const auto& image = world.image();
   const Cycle node_lines = lines_of(image.node_address(0), image.node_stride_bytes, c.memory.line_bytes);
-  const Cycle leaf_lines = lines_of(image.triangle_address(0),
-                                    static_cast<std::uint64_t>(triangles) * image.triangle_stride_bytes, c.memory.line_bytes);
+  const Cycle leaf_lines =
+      lines_of(image.triangle_address(0), static_cast<std::uint64_t>(triangles) * image.triangle_stride_bytes,
+               c.memory.line_bytes);
   const auto n = [](int cycles) { return static_cast<Cycle>(cycles); };
   Cycle mask_time = 0;
-  if (c.mask_test.design == Design::Comparators) mask_time = hop + n(c.comparators.latency) + hop + n(c.mask_test.latency);
-  else if (c.mask_test.design != Design::None) mask_time = hop + n(c.cell_locate.latency) + hop + n(c.mask_test.latency);
+  if (c.mask_test.design == Design::Comparators)
+    mask_time = hop + n(c.comparators.latency) + hop + n(c.mask_test.latency);
+  else if (c.mask_test.design != Design::None)
+    mask_time = hop + n(c.cell_locate.latency) + hop + n(c.mask_test.latency);
   const Cycle scheduling = hop + 1;
   Cycle time = n(c.ray_setup.interval - 1 + c.ray_setup.latency);
   time += scheduling + hop + fetch_time(c, c.node_cache, node_lines, miss);
@@ -87,8 +93,8 @@ TEST(Timing, a_lonely_ray_takes_exactly_the_sum_of_its_latencies_cold_and_warm) 
         for (const bool exec : {false, true}) {
           SCOPED_TRACE(std::string(cull::to_string(design)) + ", config " + std::to_string(number++ / 2));
           const UnitResult result = world.run(config, {.exec = exec});
-          EXPECT_EQ(result.ray_latency_sum, lonely_latency(world, config, triangles, true) +
-                                                lonely_latency(world, config, triangles, false));
+          EXPECT_EQ(result.ray_latency_sum,
+                    lonely_latency(world, config, triangles, true) + lonely_latency(world, config, triangles, false));
           EXPECT_EQ(result.wrong_hits, 0u);
         }
     }
@@ -198,7 +204,8 @@ TEST(Timing, bank_conflicts_cost_the_extra_turns_and_are_charged_as_such) {
   UnitConfig config = ideal(same.config());
   config.mask_test.banks = 1;
   const UnitResult shared = same.run(config);
-  EXPECT_EQ(counter(shared, "mask_test.reads") + counter(shared, "mask_test.shared_reads") + shared.counts.uncertain, 4u);
+  EXPECT_EQ(counter(shared, "mask_test.reads") + counter(shared, "mask_test.shared_reads") + shared.counts.uncertain,
+            4u);
   const auto conflicts = [](const UnitResult& result) {
     for (const auto& stage : result.stages)
       if (stage.stage == "mask_test")
@@ -215,7 +222,8 @@ TEST(Timing, bank_conflicts_cost_the_extra_turns_and_are_charged_as_such) {
   const UnitResult one_table = single.run(config);
   config.mask_test.projection_tables = 3;
   const UnitResult three_tables = single.run(config);
-  const std::uint64_t extra = counter(one_table, "mask_test.reads") - (counter(one_table, "mask_test.reads") > 0 ? 1 : 0);
+  const std::uint64_t extra =
+      counter(one_table, "mask_test.reads") - (counter(one_table, "mask_test.reads") > 0 ? 1 : 0);
   EXPECT_EQ(conflicts(one_table), extra);
   EXPECT_EQ(one_table.cycles, three_tables.cycles + extra);
 }

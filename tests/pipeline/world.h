@@ -57,7 +57,8 @@ class World {
   std::uint64_t rays_ = 0;
 };
 
-/// A root with `lanes` leaves, all at the same place, and `triangles` of one leaf: a ray along +z from below meets them all.
+/// A root with `lanes` leaves, all at the same place, and `triangles` of one leaf: a ray along +z from below meets them
+/// all.
 accel::Bvh4 stacked_leaves(int lanes, int triangles);
 /// A ray that meets every box and triangle of stacked_leaves().
 intersect::Ray ray_through_leaves();

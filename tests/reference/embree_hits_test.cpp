@@ -1,7 +1,8 @@
-// The fast tracer and the reference traversal beside Embree in robust mode, on generated and on real scenes. Two rounded tests differ where a ray
-// grazes an edge or lies almost in a triangle's plane; there the exact oracle judges. A triangle that it says is hit
-// may be missing from ours only where triangle_test, asked about it alone, rounds the ray past a free edge or puts its
-// t farther away (closed meshes stay closed): the boxes in front must not lose what triangle_test accepts.
+// The fast tracer and the reference traversal beside Embree in robust mode, on generated and on real scenes. Two
+// rounded tests differ where a ray grazes an edge or lies almost in a triangle's plane; there the exact oracle judges.
+// A triangle that it says is hit may be missing from ours only where triangle_test, asked about it alone, rounds the
+// ray past a free edge or puts its t farther away (closed meshes stay closed): the boxes in front must not lose what
+// triangle_test accepts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -107,7 +108,8 @@ class Comparison {
   void expect_the_reference_agrees(const Ray& ray, const Hit& ours) const {
     const Hit walked = traversal_.trace(ray);
     if (same_bits(ours, walked)) return;
-    EXPECT_TRUE(is_hit(ours) && grazes(ray, ours.primitive)) << "the reference differs\n" << describe(ray, walked, ours);
+    EXPECT_TRUE(is_hit(ours) && grazes(ray, ours.primitive)) << "the reference differs\n"
+                                                             << describe(ray, walked, ours);
   }
 
   /// The largest coordinate of a vertex, seen from the origin.

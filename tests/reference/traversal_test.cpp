@@ -50,7 +50,10 @@ std::vector<Ray> random_rays(const scene::Scene& scene, int count, std::uint64_t
   std::vector<Ray> rays;
   for (int i = 0; i < count; ++i) {
     const Vec3 a = point(), b = i % 2 == 0 ? point() : on_a_triangle(scene.mesh, random);
-    rays.push_back({a, 0.0f, {b.x - a.x, b.y - a.y, b.z - a.z}, std::numeric_limits<float>::infinity(),
+    rays.push_back({a,
+                    0.0f,
+                    {b.x - a.x, b.y - a.y, b.z - a.z},
+                    std::numeric_limits<float>::infinity(),
                     i % 4 == 3 ? intersect::RayKind::AnyHit : intersect::RayKind::ClosestHit});
   }
   return rays;
@@ -62,7 +65,8 @@ Hit brute_force(const accel::Bvh4& bvh, const Ray& ray) {
   best.t = ray.tmax;
   for (const auto& triangle : bvh.triangles) {
     const auto result = intersect::triangle_test(prepared, triangle.v0, triangle.v1, triangle.v2, best.t);
-    if (result.hit && intersect::replaces(result.t, triangle.primitive, best)) best = {result.t, result.u, result.v, triangle.primitive};
+    if (result.hit && intersect::replaces(result.t, triangle.primitive, best))
+      best = {result.t, result.u, result.v, triangle.primitive};
   }
   return best;
 }
@@ -124,7 +128,8 @@ TEST(TraversalTest, event_sequences_follow_from_their_outcomes_and_cost_never_ri
     const cull::MaskTester tester(design, {});
     const reference::Traversal traversal(world.bvh, &world.masks, tester);
     for (const Ray& ray : rays) hits[design].push_back(traversal.trace(ray, &lists[design]));
-    for (std::uint64_t i = 0; i < rays.size(); ++i) expect_sequence_follows_from_its_outcomes(world.bvh, lists[design], i);
+    for (std::uint64_t i = 0; i < rays.size(); ++i)
+      expect_sequence_follows_from_its_outcomes(world.bvh, lists[design], i);
   }
   EXPECT_EQ(lists[Design::MaskLut].steps, lists[Design::Projection].steps);
   EXPECT_EQ(lists[Design::MaskLut].keys, lists[Design::Projection].keys);

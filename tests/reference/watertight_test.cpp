@@ -45,7 +45,9 @@ std::vector<Vec3> vertices_and_edges(const scene::Mesh& mesh, std::mt19937_64& r
 
 /// From a point near the middle outwards, and from outside inwards through the near surface: at t = 1 in both.
 void aim_at(const ClosedMesh& closed, const Vec3& target, std::mt19937_64& random, std::vector<Shot>& shots) {
-  const auto jitter = [&] { return static_cast<float>(closed.size) * std::uniform_real_distribution<float>(-0.2f, 0.2f)(random); };
+  const auto jitter = [&] {
+    return static_cast<float>(closed.size) * std::uniform_real_distribution<float>(-0.2f, 0.2f)(random);
+  };
   const Vec3& m = closed.middle;
   const Vec3 inside{m.x + jitter(), m.y + jitter(), m.z + jitter()};
   const Vec3 outward{target.x - m.x + jitter(), target.y - m.y + jitter(), target.z - m.z + jitter()};
@@ -53,8 +55,12 @@ void aim_at(const ClosedMesh& closed, const Vec3& target, std::mt19937_64& rando
     const Vec3 origin = distance == 0 ? inside
                                       : Vec3{target.x + distance * outward.x, target.y + distance * outward.y,
                                              target.z + distance * outward.z};
-    shots.push_back({{origin, 0, {target.x - origin.x, target.y - origin.y, target.z - origin.z},
-                      std::numeric_limits<float>::infinity(), intersect::RayKind::ClosestHit}, 1.02f});
+    shots.push_back({{origin,
+                      0,
+                      {target.x - origin.x, target.y - origin.y, target.z - origin.z},
+                      std::numeric_limits<float>::infinity(),
+                      intersect::RayKind::ClosestHit},
+                     1.02f});
   }
 }
 
@@ -68,7 +74,9 @@ std::vector<Shot> all_shots(const ClosedMesh& closed) {
   return shots;
 }
 
-bool leaks(const Shot& shot, const Hit& hit) { return hit.primitive == intersect::kNoPrimitive || hit.t > shot.latest_t; }
+bool leaks(const Shot& shot, const Hit& hit) {
+  return hit.primitive == intersect::kNoPrimitive || hit.t > shot.latest_t;
+}
 
 /// In exact arithmetic the ray meets the triangle.
 bool meets(const scene::Mesh& mesh, const Ray& ray, std::uint32_t primitive) {
@@ -79,7 +87,8 @@ bool meets(const scene::Mesh& mesh, const Ray& ray, std::uint32_t primitive) {
 
 class World {
  public:
-  explicit World(const ClosedMesh& closed) : closed_(closed), bvh_(accel::build(closed.mesh, {})), shots_(all_shots(closed)) {}
+  explicit World(const ClosedMesh& closed)
+      : closed_(closed), bvh_(accel::build(closed.mesh, {})), shots_(all_shots(closed)) {}
 
   void expect_no_leak_of_the_fast_tracer(const std::string& name) {
     const reference::FastTracer tracer(bvh_);
@@ -95,14 +104,17 @@ class World {
     const reference::Traversal traversal(bvh_, &masks, tester);
     std::uint64_t lost = 0;
     for (const Shot& shot : shots_) lost += leaks(shot, traversal.trace(shot.ray));
-    std::printf("%s: %zu triangles, %zu aimed rays, %s, R %d: %llu leaks\n", name.c_str(), closed_.mesh.triangles.size(),
-                shots_.size(), std::string(to_string(design)).c_str(), resolution, static_cast<unsigned long long>(lost));
-    EXPECT_EQ(lost, 0u) << name << ", " << to_string(design) << ", R " << resolution << ", of " << shots_.size() << " rays";
+    std::printf("%s: %zu triangles, %zu aimed rays, %s, R %d: %llu leaks\n", name.c_str(),
+                closed_.mesh.triangles.size(), shots_.size(), std::string(to_string(design)).c_str(), resolution,
+                static_cast<unsigned long long>(lost));
+    EXPECT_EQ(lost, 0u) << name << ", " << to_string(design) << ", R " << resolution << ", of " << shots_.size()
+                        << " rays";
   }
 
-  /// Ideal culling is exact, the triangle test is rounded: where a ray runs within rounding of an edge, the triangle that the
-  /// rounded test gives it to may be one that it exactly misses, or meets behind the rounded t of its neighbour. Ideal
-  /// culling may rightly throw that one away: it changes near misses, and which of two neighbours is hit at one place.
+  /// Ideal culling is exact, the triangle test is rounded: where a ray runs within rounding of an edge, the triangle
+  /// that the rounded test gives it to may be one that it exactly misses, or meets behind the rounded t of its
+  /// neighbour. Ideal culling may rightly throw that one away: it changes near misses, and which of two neighbours is
+  /// hit at one place.
   void expect_ideal_culling_changes_near_misses_and_ties_only(const std::string& name) {
     const cull::ObjectMasks masks = cull::build_object_masks(bvh_, {}, 2);
     const cull::MaskTester none(Design::None, {}), ideal(Design::Ideal, {});

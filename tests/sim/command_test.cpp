@@ -21,8 +21,9 @@ class CommandTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = new ScratchFolder;
-    const Outcome outcome = run_program(
-        folder_->path(), "record 'gen:hair-ball?strands=400&seed=7' -o hair.ctut --size 40x40 --rays diffuse --bounces 2");
+    const Outcome outcome =
+        run_program(folder_->path(),
+                    "record 'gen:hair-ball?strands=400&seed=7' -o hair.ctut --size 40x40 --rays diffuse --bounces 2");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   }
   static void TearDownTestSuite() { delete folder_; }
@@ -173,7 +174,8 @@ TEST_F(CommandTest, a_truncated_or_foreign_trace_is_refused) {
     write_text(file("cut.ctut"), bytes.substr(0, keep));
     expect_refused("run cut.ctut", "cut.ctut");
   }
-  write_text(file("foreign.ctut"), "this is not a trace, but it is long enough to look like one" + std::string(4096, ' '));
+  write_text(file("foreign.ctut"),
+             "this is not a trace, but it is long enough to look like one" + std::string(4096, ' '));
   expect_refused("run foreign.ctut", "foreign.ctut");
 }
 

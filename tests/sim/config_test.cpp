@@ -10,12 +10,14 @@ using namespace ctu;
 
 TEST(ConfigTest, defaults_are_those_of_the_parameter_list) {
   const pipeline::UnitConfig config = sim::load_config("", {});
-  for (const auto& parameter : pipeline::parameters()) EXPECT_EQ(parameter.get(config), parameter.default_value) << parameter.key;
+  for (const auto& parameter : pipeline::parameters())
+    EXPECT_EQ(parameter.get(config), parameter.default_value) << parameter.key;
 }
 
 TEST(ConfigTest, every_parameter_can_be_set_to_its_own_default) {
   std::vector<std::string> sets;
-  for (const auto& parameter : pipeline::parameters()) sets.push_back(parameter.key + "=" + sim::to_text(parameter.default_value));
+  for (const auto& parameter : pipeline::parameters())
+    sets.push_back(parameter.key + "=" + sim::to_text(parameter.default_value));
   EXPECT_EQ(sim::config_hash(sim::load_config("", sets)), sim::config_hash({}));
 }
 
@@ -34,7 +36,8 @@ TEST(ConfigTest, integers_outside_their_range_are_refused_by_name) {
 }
 
 TEST(ConfigTest, the_hash_tells_configurations_apart) {
-  EXPECT_NE(sim::config_hash(sim::load_config("", {"unit.contexts=8"})), sim::config_hash(sim::load_config("", {"unit.contexts=16"})));
+  EXPECT_NE(sim::config_hash(sim::load_config("", {"unit.contexts=8"})),
+            sim::config_hash(sim::load_config("", {"unit.contexts=16"})));
 }
 
 }  // namespace

@@ -12,8 +12,9 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 }  // namespace
 
 const char* to_string(Family family) {
-  static const char* const kNames[] = {"inside-out", "outside",        "far 1e4",             "far 1e6",         "axis-parallel",
-                                       "one zero",   "tiny component", "subnormal component", "direction 1e-10", "direction 1e10"};
+  static const char* const kNames[] = {"inside-out",      "outside",       "far 1e4",        "far 1e6",
+                                       "axis-parallel",   "one zero",      "tiny component", "subnormal component",
+                                       "direction 1e-10", "direction 1e10"};
   return kNames[static_cast<int>(family)];
 }
 

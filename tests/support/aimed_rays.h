@@ -1,5 +1,5 @@
-// Rays that must cross a closed mesh, aimed where tests of boxes and triangles leak: at vertices and edges, along axes, with
-// tiny components, from far away.
+// Rays that must cross a closed mesh, aimed where tests of boxes and triangles leak: at vertices and edges, along axes,
+// with tiny components, from far away.
 #pragma once
 
 #include <cstdint>

@@ -36,13 +36,13 @@ class MidpointCutter {
 
 scene::Mesh icosahedron() {
   const double g = (1 + std::sqrt(5.0)) / 2;
-  const double corners[12][3] = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                                 {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  const double corners[12][3] = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                                 {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
   scene::Mesh mesh;
   for (const auto& c : corners) mesh.vertices.push_back(on_sphere(c[0], c[1], c[2]));
-  mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                     {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                    {3, 8, 9},  {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   return mesh;
 }
 
@@ -55,7 +55,8 @@ scene::Mesh icosphere(int levels) {
     std::vector<Triangle> finer;
     finer.reserve(mesh.triangles.size() * 4);
     for (const Triangle& t : mesh.triangles) {
-      const std::uint32_t ab = cutter.midpoint(t[0], t[1]), bc = cutter.midpoint(t[1], t[2]), ca = cutter.midpoint(t[2], t[0]);
+      const std::uint32_t ab = cutter.midpoint(t[0], t[1]), bc = cutter.midpoint(t[1], t[2]),
+                          ca = cutter.midpoint(t[2], t[0]);
       finer.insert(finer.end(), {Triangle{t[0], ab, ca}, {t[1], bc, ab}, {t[2], ca, bc}, {ab, bc, ca}});
     }
     mesh.triangles = std::move(finer);

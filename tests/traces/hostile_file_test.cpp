@@ -121,7 +121,7 @@ TEST_F(HostileFile, a_changed_byte_is_refused_or_changes_nothing) {
   int refused = 0, unchanged = 0;
   for (int i = 0; i < 2000; ++i) {
     Bytes bytes = whole;
-    const std::size_t place = i < 32 ? static_cast<std::size_t>(i)
+    const std::size_t place = i < 32    ? static_cast<std::size_t>(i)
                               : i < 104 ? bytes.size() - 104 + static_cast<std::size_t>(i)
                                         : random() % bytes.size();
     const auto change = static_cast<std::uint8_t>(1 + random() % 255);
@@ -186,11 +186,13 @@ TEST_F(HostileFile, a_foreign_file_is_refused_as_such) {
 TEST_F(HostileFile, sections_and_columns_of_a_newer_program_are_skipped) {
   Parts parts(good());
   parts.replace("\"sections\": [", "\"colour\": \"red\", \"sections\": [");
-  parts.replace("\"name\": \"kind\",", "\"name\": \"weight\", \"type\": \"f64\", \"per\": \"ray\", \"unit\": \"\","
-                                       " \"description\": \"\" }, { \"name\": \"kind\",");
+  parts.replace("\"name\": \"kind\",",
+                "\"name\": \"weight\", \"type\": \"f64\", \"per\": \"ray\", \"unit\": \"\","
+                " \"description\": \"\" }, { \"name\": \"kind\",");
   const std::size_t end = parts.manifest.rfind(']');
-  parts.manifest.insert(end, ", {\"name\": \"weather\", \"columns\": [{\"name\": \"rain\", \"type\": \"mm\","
-                             " \"per\": \"day\", \"unit\": \"\", \"description\": \"\"}]}\n");
+  parts.manifest.insert(end,
+                        ", {\"name\": \"weather\", \"columns\": [{\"name\": \"rain\", \"type\": \"mm\","
+                        " \"per\": \"day\", \"unit\": \"\", \"description\": \"\"}]}\n");
   std::vector<Parts::Chunk> chunks;
   for (Parts::Chunk chunk : parts.chunks) {
     if (chunk.entry.section == 1 && chunk.entry.column == 8) {
@@ -202,8 +204,9 @@ TEST_F(HostileFile, sections_and_columns_of_a_newer_program_are_skipped) {
     chunks.push_back(chunk);
   }
   // A column in front of the image's words.
-  parts.replace("\"name\": \"words\",", "\"name\": \"age\", \"type\": \"u8\", \"per\": \"day\", \"unit\": \"\","
-                                        " \"description\": \"\" }, { \"name\": \"words\",");
+  parts.replace("\"name\": \"words\",",
+                "\"name\": \"age\", \"type\": \"u8\", \"per\": \"day\", \"unit\": \"\","
+                " \"description\": \"\" }, { \"name\": \"words\",");
   for (Parts::Chunk& chunk : chunks)
     if (chunk.entry.section == 0) chunk.entry.column = 1;
   Parts::Chunk rain = chunks.back();
@@ -267,7 +270,8 @@ TEST_F(HostileFile, given_an_image_that_is_no_tree_when_every_checksum_is_right_
   std::mt19937_64 random(seed);
   Parts parts(good());
   Bytes words(parts.chunks[0].entry.elements * 4);
-  ColumnDecoder().decode(parts.chunks[0].frame, words.size() / 4, 4, parts.chunks[0].entry.checksum, words.data(), "", "");
+  ColumnDecoder().decode(parts.chunks[0].frame, words.size() / 4, 4, parts.chunks[0].entry.checksum, words.data(), "",
+                         "");
   ColumnEncoder encoder;
   for (int i = 0; i < 200; ++i) {
     Bytes changed = words;
@@ -332,7 +336,8 @@ TEST_F(HostileFile, steps_that_pass_the_check_are_a_walk_through_the_image) {
     if (what == 1) step.dropped = static_cast<std::uint8_t>(step.dropped + 1 + random() % 255);
     if (what == 2) step.lanes = static_cast<std::uint8_t>(random());
     if (what == 3) step.detail = static_cast<std::uint16_t>(random());
-    if (what == 4) list.tail_dropped[random() % list.tail_dropped.size()] += static_cast<std::uint8_t>(1 + random() % 255);
+    if (what == 4)
+      list.tail_dropped[random() % list.tail_dropped.size()] += static_cast<std::uint8_t>(1 + random() % 255);
     if (what == 5) list.keys[random() % list.keys.size()] = 0x00444444u << (random() % 2);
     if (what == 6) changed.rays[random() % changed.rays.size()].kind = intersect::RayKind::AnyHit;
     bool passed = true;

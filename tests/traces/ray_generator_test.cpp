@@ -1,4 +1,5 @@
-// Rays by closed forms: where the camera looks, how directions are distributed, and that nothing but the options decides.
+// Rays by closed forms: where the camera looks, how directions are distributed, and that nothing but the options
+// decides.
 #include "traces/ray_generator.h"
 
 #include <gtest/gtest.h>
@@ -106,7 +107,8 @@ TEST(PrimaryRays, given_no_jitter_then_they_go_through_the_pixel_centres) {
   ASSERT_EQ(out.rays.size(), 96u);
   for (std::size_t i = 0; i < out.rays.size(); ++i) {
     // A field of view of 90 degrees: at distance 5 the picture is 10 high and 15 wide.
-    const double x = ((static_cast<double>(i % 12) + 0.5) / 12 - 0.5) * 15, y = (0.5 - (static_cast<double>(i / 12) + 0.5) / 8) * 10;
+    const double x = ((static_cast<double>(i % 12) + 0.5) / 12 - 0.5) * 15,
+                 y = (0.5 - (static_cast<double>(i / 12) + 0.5) / 8) * 10;
     const Ray& ray = out.rays[i];
     EXPECT_EQ(ray.origin, (Vec3{0, 0, 5}));
     EXPECT_EQ(ray.tmin, 0);

@@ -21,7 +21,8 @@ TEST(Recorder, given_any_number_of_threads_then_the_file_is_the_same_byte_for_by
   for (const int threads : {2, 5}) {
     options.threads = options.build.threads = threads;
     record(scene, options, folder.file("n.ctut"));
-    EXPECT_EQ(test::read_bytes(folder.file("n.ctut")), test::read_bytes(folder.file("1.ctut"))) << threads << " threads";
+    EXPECT_EQ(test::read_bytes(folder.file("n.ctut")), test::read_bytes(folder.file("1.ctut")))
+        << threads << " threads";
   }
 }
 

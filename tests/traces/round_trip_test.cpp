@@ -45,11 +45,16 @@ TEST(TraceFile, given_rays_of_every_bit_pattern_when_written_and_read_then_every
   const std::uint64_t seed = test::test_seed(11);
   SCOPED_TRACE(seed);
   std::uint64_t state = seed;
-  const auto bits = [&] { return static_cast<std::uint32_t>((state = state * 6364136223846793005u + 1442695040888963407u) >> 32); };
+  const auto bits = [&] {
+    return static_cast<std::uint32_t>((state = state * 6364136223846793005u + 1442695040888963407u) >> 32);
+  };
   const auto number = [&] { return std::bit_cast<float>(bits()); };
   reference::RayBlock block;
   for (int i = 0; i < 1000; ++i) {
-    block.rays.push_back({{number(), number(), number()}, number(), {number(), number(), number()}, number(),
+    block.rays.push_back({{number(), number(), number()},
+                          number(),
+                          {number(), number(), number()},
+                          number(),
                           static_cast<intersect::RayKind>(bits() & 1u)});
     block.expected.push_back({number(), number(), number(), bits() % 2});
   }

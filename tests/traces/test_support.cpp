@@ -86,8 +86,10 @@ bool same_memory(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 bool same_ray(const intersect::Ray& a, const intersect::Ray& b) {
-  const float left[] = {a.origin.x, a.origin.y, a.origin.z, a.tmin, a.direction.x, a.direction.y, a.direction.z, a.tmax};
-  const float right[] = {b.origin.x, b.origin.y, b.origin.z, b.tmin, b.direction.x, b.direction.y, b.direction.z, b.tmax};
+  const float left[] = {a.origin.x,    a.origin.y,    a.origin.z,    a.tmin,
+                        a.direction.x, a.direction.y, a.direction.z, a.tmax};
+  const float right[] = {b.origin.x,    b.origin.y,    b.origin.z,    b.tmin,
+                         b.direction.x, b.direction.y, b.direction.z, b.tmax};
   return std::memcmp(left, right, sizeof left) == 0 && a.kind == b.kind;
 }
 }  // namespace

@@ -30,7 +30,8 @@ void expect_equal(const pipeline::UnitResult& a, const pipeline::UnitResult& b) 
   EXPECT_EQ(a.rays, b.rays);
   EXPECT_EQ(a.ray_latency_sum, b.ray_latency_sum);
   ASSERT_EQ(a.counters.size(), b.counters.size());
-  for (std::size_t i = 0; i < a.counters.size(); ++i) EXPECT_EQ(a.counters[i].value, b.counters[i].value) << a.counters[i].name;
+  for (std::size_t i = 0; i < a.counters.size(); ++i)
+    EXPECT_EQ(a.counters[i].value, b.counters[i].value) << a.counters[i].name;
   ASSERT_EQ(a.stages.size(), b.stages.size());
   for (std::size_t i = 0; i < a.stages.size(); ++i) {
     EXPECT_EQ(a.stages[i].busy, b.stages[i].busy) << a.stages[i].stage;
@@ -83,7 +84,8 @@ TEST(Waves, are_the_same_in_all_modes_and_change_no_cycle) {
   for (int mode = 0; mode < 4; ++mode) {
     SCOPED_TRACE(kModeNames[mode]);
     const std::string path = testing::TempDir() + "ctu_modes_test_" + kModeNames[mode] + ".vcd";
-    const auto result = run(world, world.config(), {.mode = kModes[mode], .waves_path = path, .waves_first = 20, .waves_last = 700});
+    const auto result =
+        run(world, world.config(), {.mode = kModes[mode], .waves_path = path, .waves_first = 20, .waves_last = 700});
     EXPECT_EQ(result.cycles, unwatched.cycles);
     const std::string waves = text_of(path);
     std::remove(path.c_str());

@@ -17,7 +17,8 @@ void run_unit(benchmark::State& state, unit::Mode mode, unit::Source source, cul
   std::uint64_t cycles = 0, rays = 0;
   for (auto _ : state) {
     VectorFeed feed(world->blocks());
-    const auto result = unit::run(world->config(), {world->image(), world->tester(), feed}, {.mode = mode, .source = source});
+    const auto result =
+        unit::run(world->config(), {world->image(), world->tester(), feed}, {.mode = mode, .source = source});
     cycles += result.cycles;
     rays += result.rays;
   }
@@ -30,7 +31,7 @@ void run_unit(benchmark::State& state, unit::Mode mode, unit::Source source, cul
 using cull::Design;
 using unit::Mode;
 using unit::Source;
-#define CTU_UNIT_BENCHMARK(mode, source, design)                                                               \
+#define CTU_UNIT_BENCHMARK(mode, source, design)                                                      \
   BENCHMARK_CAPTURE(run_unit, mode##_##source##_##design, Mode::mode, Source::source, Design::design) \
       ->Unit(benchmark::kMillisecond)
 CTU_UNIT_BENCHMARK(Plain, Replay, None);
