@@ -41,13 +41,13 @@ unit::RunOptions run_options(const UnitArgs& args) {
 }
 
 void print_compare_header() {
-  fmt::print("{:<22}{:<13}{:>9}{:>12}{:>9}{:>9}{:>7}{:>12}{:>11}\n", "scene", "mask test", "rays", "inters./ray",
+  fmt::print("{:<22}{:<13}{:>9}{:>13}{:>12}{:>10}{:>7}{:>11}{:>10}\n", "scene", "mask test", "rays", "inters./ray",
              "cycles/ray", "culled", "wrong", "cycles/s", "rays/s");
 }
 
 void print_compare_row(const RunRecord& r) {
   const auto& counts = r.result.counts;
-  fmt::print("{:<22}{:<13}{:>9}{:>12.3f}{:>10.3f}{:>7.1f} %{:>7}{:>12.3g}{:>11.3g}\n",
+  fmt::print("{:<22}{:<13}{:>9}{:>13.3f}{:>12.3f}{:>8.1f} %{:>7}{:>11.3g}{:>10.3g}\n",
              r.scene.substr(r.scene.find_last_of('/') + 1), r.design, r.result.rays, counts.intersections_per_ray(),
              r.cycles_per_ray(), 100 * counts.culled_share(), r.result.wrong_hits, r.cycles_per_second(),
              r.rays_per_second());

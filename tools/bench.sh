@@ -7,14 +7,12 @@ scratch=$2
 bunny=/usr/share/glmark2/models/bunny.obj
 
 echo "== the unit on diffuse bounces of the bunny"
-"$build/ctusim" record "$bunny" -o "$scratch/bench.ctut" --size 256x256 --rays diffuse --skip-primary --designs mask-lut
-"$build/ctusim" bench "$scratch/bench.ctut"
+"$build/ctusim" record "$bunny" -o "$scratch/bench.ctut" --size 512x512 --rays diffuse --designs mask-lut
+"$build/ctusim" bench "$scratch/bench.ctut" --repeats 5
 
 echo
 echo "== tree and closest hit beside Embree, one thread"
-for program in "$build"/tests/bench/*_benchmark; do
-  [ -x "$program" ] && "$program"
-done
+"$build/tests/bench/ctu_bench_accel" "$bunny" --benchmark_repetitions=5 | grep "Embree's speed"
 
 if [ -f build/scenes/kitchen/scene.pbrt ]; then
   echo
