@@ -31,6 +31,9 @@ void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
       ->capture_default_str();
   app.add_option("--l", args.levels, "L: levels below from which masks are made, 1..5 or inf")->capture_default_str();
   app.add_option("--leaf", args.leaf_triangles, "triangles in a leaf, at most")->capture_default_str();
+  app.add_option("--triangle-cost", args.triangle_cost,
+                 "cost of a triangle test in the builder, relative to a test of 4 boxes")
+      ->capture_default_str();
   app.add_option("--threads", args.threads, "0: one for each core; results do not depend on it")->capture_default_str();
 }
 

@@ -112,6 +112,7 @@ traces::RecordOptions record_options(const SceneArgs& args) {
   options.rays.skip_primary = args.skip_primary;
   options.masks = parse_masks(args);
   options.build.max_leaf_triangles = args.leaf_triangles;
+  options.build.triangle_cost = static_cast<float>(args.triangle_cost);
   options.threads = args.threads > 0 ? args.threads : available_threads();
   options.build.threads = options.threads;
   return options;
