@@ -26,7 +26,7 @@ struct SceneArgs {
   std::string levels = "inf";
   int leaf_triangles = 4;
   double triangle_cost = 1;  ///< of a triangle test in the builder's SAH, relative to a 4-wide box test
-  int threads = 0;  ///< 0: all
+  int threads = 0;           ///< 0: all
 };
 
 struct RecordArgs {

@@ -73,6 +73,7 @@ int run_command(const RunArgs& args) {
     throw Error("--waves", "no window of cycles", "add --window A:B; a waveform of a whole run is gigabytes");
   const LoadedTrace trace(args.trace);
   plan.range = trace.range(args.first_ray, args.rays);
+  if (!args.json_path.empty()) check_writable(args.json_path);
   RunRecord record = run_plan(trace, plan);
   record.command = args.command;
   print_record(record);

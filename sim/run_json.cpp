@@ -84,6 +84,11 @@ ordered_json timed_json(const RunRecord& record) {
 
 }  // namespace
 
+void check_writable(const std::string& path) {
+  if (!std::ofstream(path, std::ios::app))
+    throw Error(path, "the result cannot be written there", "check the folder and its permissions");
+}
+
 void write_json(const RunRecord& record, const std::string& path) {
   ordered_json json;
   json["format"] = "ctusim-result";

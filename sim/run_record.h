@@ -25,6 +25,9 @@ struct RunRecord {
   double rays_per_second() const;
 };
 
+/// Error unless a result can be written there: asked before a long run, not after it.
+void check_writable(const std::string& path);
+
 /// Writes the result file; Error when it cannot be written.
 void write_json(const RunRecord& record, const std::string& path);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -48,6 +50,7 @@ void parse_point(const char* option, const std::string& text, Vec3& point) {
     const auto comma = axis < 2 ? rest.find(',') : rest.size();
     if (comma == std::string_view::npos) throw Error(option, fmt::format("\"{}\" is not three numbers", text), remedy);
     point[axis] = parse_number<float>(rest.substr(0, comma), option, remedy);
+    if (!std::isfinite(point[axis])) throw Error(option, fmt::format("\"{}\" is not finite", text), remedy);
     rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
 }
@@ -57,6 +60,7 @@ void place_camera(const SceneArgs& args, scene::Camera& camera) {
   parse_point("--target", args.target, camera.target);
   parse_point("--up", args.up, camera.up);
   if (args.vertical_fov != 0) camera.vertical_fov_degrees = static_cast<float>(args.vertical_fov);
+  if (camera.eye == camera.target) throw Error("--eye", "the camera looks at its own place", "move --eye or --target");
 }
 
 int parse_levels(const std::string& levels) {
@@ -113,12 +117,15 @@ traces::RecordOptions record_options(const SceneArgs& args) {
   options.masks = parse_masks(args);
   options.build.max_leaf_triangles = args.leaf_triangles;
   options.build.triangle_cost = static_cast<float>(args.triangle_cost);
+  if (args.threads < 0) throw Error("--threads", fmt::format("{} is below 0", args.threads), "give 0 for all cores");
   options.threads = args.threads > 0 ? args.threads : available_threads();
   options.build.threads = options.threads;
   return options;
 }
 
 scene::Scene load_scene(const SceneArgs& args, const std::string& name) {
+  if (!(args.strand_thickness >= 0 && args.strand_thickness <= std::numeric_limits<float>::max()))
+    throw Error("--thickness", fmt::format("{} is no width", args.strand_thickness), "give scene units, 0 or more");
   scene::LoadOptions options;
   options.strand_thickness = static_cast<float>(args.strand_thickness);
   scene::Scene scene = scene::load(name, options);

@@ -133,6 +133,23 @@ TEST_F(CommandTest, a_waveform_covers_its_window) {
   EXPECT_NE(vcd.find("#100"), std::string::npos);
 }
 
+TEST_F(CommandTest, a_trace_says_how_it_was_made_and_shows_its_rays) {
+  const Outcome info = ctusim("trace info hair.ctut");
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_NE(info.out.find("gen:hair-ball"), std::string::npos);
+  const Outcome head = ctusim("trace head hair.ctut --rays 2");
+  EXPECT_EQ(head.exit_code, 0) << head.err;
+  EXPECT_NE(head.out.find("ray 1 closest-hit"), std::string::npos);
+  EXPECT_EQ(head.out.find("ray 2 "), std::string::npos);
+}
+
+TEST_F(CommandTest, a_culling_survey_loses_no_hit) {
+  const Outcome outcome = ctusim("culling 'gen:hair-ball?strands=200' --rays all --size 24x24");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* kind : {"primary", "diffuse", "shadow", "ao", "random"})
+    EXPECT_NE(outcome.out.find(kind), std::string::npos) << kind;
+}
+
 TEST_F(CommandTest, a_slice_runs_as_a_trace_of_its_own) {
   ASSERT_EQ(ctusim("trace slice hair.ctut -o part.ctut --first 100 --rays 50").exit_code, 0);
   const Outcome outcome = ctusim("run part.ctut --json part.json");
@@ -157,6 +174,13 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("record gen:hair-ball -o x.ctut --l 7", "--l");
   expect_refused("record gen:hair-ball -o no/such/folder/x.ctut", "no/such/folder");
   expect_refused("record gen:hair-ball", "--output");
+  expect_refused("record gen:hair-ball -o x.ctut --eye nan,0,0", "--eye");
+  expect_refused("record gen:hair-ball -o x.ctut --eye 1,2", "--eye");
+  expect_refused("record gen:hair-ball -o x.ctut --eye 1,2,3 --target 1,2,3", "--eye");
+  expect_refused("record gen:hair-ball -o x.ctut --thickness -1", "--thickness");
+  expect_refused("record gen:hair-ball -o x.ctut --threads -1", "--threads");
+  expect_refused("record gen:hair-ball -o x.ctut --fov 500", "field of view");
+  expect_refused("run hair.ctut --json no/such/folder/r.json", "no/such/folder");
   expect_refused("", "subcommand");
 }
 
