@@ -7,8 +7,8 @@ scratch=$2
 bunny=/usr/share/glmark2/models/bunny.obj
 
 echo "== the unit on diffuse bounces of the bunny"
-"$build/ctusim" record "$bunny" -o "$scratch/bench.ctut" --size 512x512 --rays diffuse --designs mask-lut
-"$build/ctusim" bench "$scratch/bench.ctut" --repeats 5
+"$build/ctusim" record "$bunny" -o "$scratch/bench.ctut" --size 320x320 --rays diffuse --designs mask-lut
+"$build/ctusim" bench "$scratch/bench.ctut" --repeats 3
 
 echo
 echo "== tree and closest hit beside Embree, one thread"

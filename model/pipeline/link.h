@@ -12,27 +12,32 @@
 
 namespace ctu::pipeline {
 
+/// Kept as the answers themselves, since every stage asks in every cycle: from which cycle on the front can be popped,
+/// and from which on there is room.
 template <class T>
 class Link {
  public:
-  bool can_pop(Cycle now) const { return written_ - read_ > static_cast<std::uint32_t>(last_push_ == now); }
-  bool can_push(Cycle now) const { return written_ - read_ + static_cast<std::uint32_t>(last_pop_ == now) < 2u; }
-  const T& front() const { return entry_[read_ & 1u]; }
+  bool can_pop(Cycle now) const { return front_from_ <= now; }
+  bool can_push(Cycle now) const { return room_from_ <= now; }
+  const T& front() const { return entry_[head_]; }
+  /// What stands behind the front was pushed in this cycle at the latest, so it can go from the next one on.
   void pop(Cycle now) {
-    ++read_;
-    last_pop_ = now;
+    if (count_ == 2) room_from_ = now + 1;
+    head_ ^= 1u;
+    --count_;
+    front_from_ = count_ > 0 ? now + 1 : kNever;
   }
   void push(Cycle now, const T& value) {
-    entry_[written_ & 1u] = value;
-    ++written_;
-    last_push_ = now;
+    if (count_ == 0) front_from_ = now + 1;
+    entry_[head_ ^ count_] = value;
+    if (++count_ == 2) room_from_ = kNever;
   }
-  int occupancy() const { return static_cast<int>(written_ - read_); }
+  int occupancy() const { return static_cast<int>(count_); }
 
  private:
+  Cycle front_from_ = kNever, room_from_ = 0;
+  std::uint32_t head_ = 0, count_ = 0;
   T entry_[2] = {};
-  std::uint32_t written_ = 0, read_ = 0;
-  Cycle last_push_ = kNever, last_pop_ = kNever;
 };
 
 /// How stages and links are joined. A stage names its ports Wiring::In<T> and Wiring::Out<T> and knows nothing else, so

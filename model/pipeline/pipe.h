@@ -21,7 +21,7 @@ class Pipe {
 
   bool empty() const { return head_ == tail_; }
   /// A token stands in the last register.
-  bool exit_ready(Cycle now) const { return !empty() && ring_[head_ & mask_].due + frozen_total_ <= now; }
+  bool exit_ready(Cycle now) const { return head_due_ <= now - frozen_total_; }
   /// The first register is free: the token before has had its `occupies` cycles.
   bool can_enter(Cycle now) const { return entry_free_ + frozen_total_ <= now; }
 
@@ -35,19 +35,23 @@ class Pipe {
       frozen_total_ += now - frozen_since_;
       frozen_since_ = kNever;
     }
-    return ring_[head_++ & mask_].token;
+    const T token = ring_[head_++ & mask_].token;
+    head_due_ = empty() ? kNever : ring_[head_ & mask_].due;
+    return token;
   }
   /// Enters and keeps the entrance for `occupies` cycles; the token moves on at the end of them.
   void enter(Cycle now, const T& token, Cycle occupies = 1) {
     const Cycle pipe_now = now - frozen_total_;
-    ring_[tail_++ & mask_] = {token, pipe_now + occupies - 1 + latency_};
+    const Cycle due = pipe_now + occupies - 1 + latency_;
+    if (empty()) head_due_ = due;
+    ring_[tail_++ & mask_] = {token, due};
     entry_free_ = pipe_now + occupies;
   }
   /// The next cycle after `now` in which something changes by itself: a token reaches the last register or the entrance
   /// becomes free.
   Cycle next_event(Cycle now) const {
     if (frozen_since_ != kNever) return kNever;
-    Cycle next = empty() ? kNever : ring_[head_ & mask_].due + frozen_total_;
+    Cycle next = empty() ? kNever : head_due_ + frozen_total_;
     if (!can_enter(now)) next = earlier(next, entry_free_ + frozen_total_);
     return next;
   }
@@ -60,6 +64,7 @@ class Pipe {
   Cycle latency_;
   std::vector<Place> ring_;
   std::uint32_t mask_ = 0, head_ = 0, tail_ = 0;
+  Cycle head_due_ = kNever;  // of the oldest token, beside the ring because every cycle asks for it
   Cycle entry_free_ = 0, frozen_total_ = 0, frozen_since_ = kNever;
 };
 

@@ -25,7 +25,7 @@ TableBanks::TableBanks(const UnitConfig& config, const cull::MaskTester& tester)
 }
 
 int TableBanks::read_tables(const LaneKeys& keys) {
-  pending_count_ = 0;
+  for (int table = 0; table < tables_; ++table) pending_[table].count = 0;
   for (int i = 0; i < keys.count; ++i) {
     const cull::CellKey key{keys.key[i]};
     if (key.uncertain()) continue;
@@ -33,22 +33,25 @@ int TableBanks::read_tables(const LaneKeys& keys) {
       add(0, tester_.ray_mask_table()->row_index(key));
     } else {
       const cull::ProjectionTable& table = *tester_.projection_table();
-      const bool apart = tables_ == 3;
+      const bool apart = tables_ == kMaxTables;
       add(0, table.row_index(key, cull::AxisPair::XY));
       add(apart ? 1 : 0, table.row_index(key, cull::AxisPair::YZ));
       add(apart ? 2 : 0, table.row_index(key, cull::AxisPair::XZ));
     }
   }
-  return cycles();
+  int most = 1;
+  for (int table = 0; table < tables_; ++table) most = std::max(most, most_in_a_bank(pending_[table]));
+  return ports_ == 1 ? most : (most + ports_ - 1) / ports_;
 }
 
 void TableBanks::add(int table, std::uint32_t row) {
-  for (int i = 0; i < pending_count_; ++i)
-    if (pending_[i].table == table && pending_[i].row == row) {
+  Reads& reads = pending_[table];
+  for (int i = 0; i < reads.count; ++i)
+    if (reads.row[i] == row) {
       ++shared_;
       return;
     }
-  pending_[pending_count_++] = {table, row};
+  reads.row[reads.count++] = row;
   ++reads_;
   auto used = used_[static_cast<std::size_t>(table) * rows_ + row];
   if (used) return;
@@ -56,15 +59,14 @@ void TableBanks::add(int table, std::uint32_t row) {
   ++rows_used_;
 }
 
-int TableBanks::cycles() const {
+int TableBanks::most_in_a_bank(const Reads& reads) const {
   int most = 1;
-  for (int i = 0; i < pending_count_; ++i) {
+  for (int i = 1; i < reads.count; ++i) {
     int in_bank = 1;
-    for (int j = 0; j < i; ++j)
-      in_bank += pending_[j].table == pending_[i].table && ((pending_[j].row ^ pending_[i].row) & bank_mask_) == 0;
+    for (int j = 0; j < i; ++j) in_bank += ((reads.row[j] ^ reads.row[i]) & bank_mask_) == 0;
     most = std::max(most, in_bank);
   }
-  return (most + ports_ - 1) / ports_;
+  return most;
 }
 
 }  // namespace ctu::pipeline

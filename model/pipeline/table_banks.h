@@ -30,11 +30,18 @@ class TableBanks {
   std::uint64_t rows_used() const { return rows_used_; }
 
  private:
+  static constexpr int kMaxTables = 3;
   static constexpr int kMaxReads = 12;  // three for each lane
+
+  /// The reads of one node at one table.
+  struct Reads {
+    int count = 0;
+    std::uint32_t row[kMaxReads];
+  };
 
   int read_tables(const LaneKeys& keys);
   void add(int table, std::uint32_t row);
-  int cycles() const;
+  int most_in_a_bank(const Reads& reads) const;
 
   cull::Design design_;
   const cull::MaskTester& tester_;
@@ -43,13 +50,7 @@ class TableBanks {
   std::uint64_t rows_ = 0, row_bits_ = 0;
   std::vector<bool> used_;  // [table * rows + row]
   std::uint64_t reads_ = 0, shared_ = 0, rows_used_ = 0;
-
-  struct Read {
-    int table;
-    std::uint32_t row;
-  };
-  Read pending_[kMaxReads] = {};
-  int pending_count_ = 0;
+  Reads pending_[kMaxTables];
 };
 
 }  // namespace ctu::pipeline
