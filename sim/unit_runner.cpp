@@ -61,7 +61,15 @@ pipeline::UnitResult run_reference(const LoadedTrace& trace, const cull::MaskTes
   return result;
 }
 
-pipeline::UnitResult run_cycle(const LoadedTrace& trace, const cull::MaskTester& tester, const RunPlan& plan) {
+/// Runs and times: the simulation with the reading of its rays, not the loading and table building before it.
+template <class Run>
+void run_timed(RunRecord& record, Run&& run) {
+  const auto start = std::chrono::steady_clock::now();
+  record.result = run();
+  record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void run_cycle(const LoadedTrace& trace, const cull::MaskTester& tester, const RunPlan& plan, RunRecord& record) {
   const accel::Image image = trace.unit_image(tester.design());
   traces::TraceFeed feed = plan.options.source == unit::Source::Replay
                                ? traces::TraceFeed(trace.reader(), plan.range, trace.bvh(), &trace.masks(), tester)
@@ -69,7 +77,7 @@ pipeline::UnitResult run_cycle(const LoadedTrace& trace, const cull::MaskTester&
   Progress bar("running", feed.total_rays(), "rays");
   unit::RunOptions options = plan.options;
   options.progress = [&](std::uint64_t rays) { bar.update(rays); };
-  return unit::run(plan.config, {image, tester, feed}, options);
+  run_timed(record, [&] { return unit::run(plan.config, {image, tester, feed}, options); });
 }
 
 }  // namespace
@@ -89,10 +97,10 @@ RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
   record.config = plan.config;
   record.config_hash = config_hash(plan.config);
   record.design = cull::to_string(plan.config.mask_test.design);
-  const auto start = std::chrono::steady_clock::now();
-  record.result =
-      plan.engine == "reference" ? run_reference(trace, tester, plan.range) : run_cycle(trace, tester, plan);
-  record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (plan.engine == "reference")
+    run_timed(record, [&] { return run_reference(trace, tester, plan.range); });
+  else
+    run_cycle(trace, tester, plan, record);
   return record;
 }
 
