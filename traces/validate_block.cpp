@@ -45,7 +45,7 @@ class Follower {
   void check_key(std::uint32_t packed) const {
     const cull::CellKey key{packed};
     if (key.uncertain()) return;  // it says nothing and is not looked up
-    if ((packed >> 24) != 0) refuse("a key has bits that mean nothing");
+    if ((packed >> 30) != 0) refuse("a key has bits that mean nothing");
     for (int axis = 0; axis < 3; ++axis)
       if (key.begin(axis) >= masks_.ray_resolution || key.end(axis) >= masks_.ray_resolution)
         refuse(fmt::format("a key lies outside the grid of R_ray = {}", masks_.ray_resolution));

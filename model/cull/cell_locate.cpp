@@ -101,8 +101,7 @@ CellKey pack(const AxisCells (&axes)[3]) {
   for (int axis = 0; axis < 3; ++axis) {
     Cells begin_end{axes[axis].begin.first, axes[axis].end.first};
     if (undecided == 1 && several_cells == 1 && axis == undecided_axis) begin_end = axes[axis].span();
-    key.packed |= static_cast<std::uint32_t>(begin_end.first) << (4 * axis);
-    key.packed |= static_cast<std::uint32_t>(begin_end.last) << (12 + 4 * axis);
+    key.set(axis, begin_end.first, begin_end.last);
   }
   if (undecided > 0 && several_cells > 1) key.packed |= CellKey::kUncertain;
   return key;

@@ -8,13 +8,16 @@
 
 namespace ctu::cull {
 
-/// Begin and end cell, 4 bits each: begin x,y,z in bits 0..11, end x,y,z in bits 12..23. Bit 31: rounding leaves
+/// Begin and end cell, 5 bits each: begin x,y,z in bits 0..14, end x,y,z in bits 15..29. Bit 31: rounding leaves
 /// more candidates than a key can hold, so it proves nothing and the child must be passed.
 struct CellKey {
   std::uint32_t packed = 0;
   static constexpr std::uint32_t kUncertain = 1u << 31;
-  int begin(int axis) const { return static_cast<int>(packed >> (4 * axis)) & 15; }
-  int end(int axis) const { return static_cast<int>(packed >> (12 + 4 * axis)) & 15; }
+  int begin(int axis) const { return static_cast<int>(packed >> (5 * axis)) & 31; }
+  int end(int axis) const { return static_cast<int>(packed >> (15 + 5 * axis)) & 31; }
+  void set(int axis, int begin, int end) {
+    packed |= static_cast<std::uint32_t>(begin) << (5 * axis) | static_cast<std::uint32_t>(end) << (15 + 5 * axis);
+  }
   bool uncertain() const { return (packed & kUncertain) != 0; }
 };
 

@@ -9,6 +9,7 @@ namespace ctu::cull {
 struct MaskTester::Tables {
   Design design;
   MaskOptions options;
+  std::shared_ptr<const CompressionLut> lut;
   std::optional<RayMaskTable> ray_masks;
   std::optional<ProjectionTable> projections;
 };
@@ -63,10 +64,12 @@ MaskTestResult test_by_key(const intersect::PreparedRay& ray, const intersect::S
 
 }  // namespace
 
-MaskTester::MaskTester(Design design, const MaskOptions& options) : tables_(std::make_unique<Tables>()) {
+MaskTester::MaskTester(Design design, const MaskOptions& options, std::shared_ptr<const CompressionLut> lut)
+    : tables_(std::make_unique<Tables>()) {
   validate(options);
   tables_->design = design;
   tables_->options = options;
+  tables_->lut = std::move(lut);
   if (design == Design::MaskLut) tables_->ray_masks.emplace(options.resolution, options.ray_resolution);
   if (design == Design::Projection) tables_->projections.emplace(options.resolution, options.ray_resolution);
 }
@@ -82,8 +85,11 @@ const ProjectionTable* MaskTester::projection_table() const {
   return tables_->projections ? &*tables_->projections : nullptr;
 }
 
+const CompressionLut* MaskTester::compression_lut() const { return tables_->lut.get(); }
+
 MaskTestResult MaskTester::test(const intersect::PreparedRay& ray, const intersect::SlabTimes& times,
-                                const intersect::Box4& boxes, const std::uint64_t* object_masks) const {
+                                const intersect::Box4& boxes, const NodeMasks& masks) const {
+  const std::uint64_t* object_masks = masks.bits;
   const Tables& tables = *tables_;
   const int ray_resolution = tables.options.ray_resolution;
   return with_resolution(tables.options.resolution, [&](auto r) {
@@ -99,6 +105,8 @@ MaskTestResult MaskTester::test(const intersect::PreparedRay& ray, const interse
       case Design::MaskLut:
         return test_by_key<R>(ray, times, boxes, ray_resolution, object_masks,
                               [&](CellKey key) { return tables.ray_masks->row(tables.ray_masks->row_index(key)); });
+      case Design::BitTable:
+      case Design::Dedup:
       case Design::Projection: {
         MaskWords<R> words;
         return test_by_key<R>(ray, times, boxes, ray_resolution, object_masks, [&](CellKey key) {

@@ -7,6 +7,7 @@
 #include "model/accel/bvh4.h"
 #include "model/cull/cell_locate.h"
 #include "model/cull/comparators.h"
+#include "model/cull/compression_lut.h"
 #include "model/cull/ideal.h"
 #include "model/cull/object_masks.h"
 #include "model/cull/projection_table.h"
@@ -18,13 +19,16 @@ namespace ctu::cull {
 struct MaskTestResult {
   std::uint8_t pass = 0;                      ///< bit lane: hit by the slab test and not culled
   std::uint8_t uncertain = 0;                 ///< bit lane: passed because rounding left two candidate cells
-  std::uint32_t key[intersect::kLanes] = {};  ///< packed CellKey of hit lanes, for designs that read tables
+  std::uint32_t key[intersect::kLanes] = {};  ///< packed CellKey of hit lanes, for designs that read tables; 0
+                                              ///< for a lane whose object mask is full: it passes unasked
 };
 
 /// The tables of one design, built once and shared read-only by threads, and the test over them.
 class MaskTester {
  public:
-  MaskTester(Design design, const MaskOptions& options);
+  /// `lut`: what the object masks are compressed with, or null. Throws Error when the design needs it and it is not
+  /// there, and when a table would be too large.
+  MaskTester(Design design, const MaskOptions& options, std::shared_ptr<const CompressionLut> lut = nullptr);
   ~MaskTester();
   MaskTester(MaskTester&&) noexcept;
   MaskTester& operator=(MaskTester&&) noexcept;
@@ -32,14 +36,15 @@ class MaskTester {
   Design design() const;
   const MaskOptions& options() const;
 
-  /// `times` from slab_test (slab_test_outer is enough for Design::None); `object_masks` is the mask of lane 0,
-  /// the other lanes' follow. Lanes that the slab test missed are not asked.
+  /// `times` from slab_test (slab_test_outer is enough for Design::None). Lanes that the slab test missed are not
+  /// asked; of those it hit, lanes with a full mask pass unasked.
   MaskTestResult test(const intersect::PreparedRay& ray, const intersect::SlabTimes& times,
-                      const intersect::Box4& boxes, const std::uint64_t* object_masks) const;
+                      const intersect::Box4& boxes, const NodeMasks& masks) const;
 
   /// The tables, for the unit's stages; null where the design has none.
   const RayMaskTable* ray_mask_table() const;
   const ProjectionTable* projection_table() const;
+  const CompressionLut* compression_lut() const;
 
  private:
   struct Tables;

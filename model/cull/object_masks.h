@@ -10,13 +10,24 @@
 
 namespace ctu::cull {
 
+/// The masks of a node's lanes: lane 0's words, the other lanes' behind them; and, when masks are compressed, the lanes'
+/// entries in the compression LUT.
+struct NodeMasks {
+  const std::uint64_t* bits = nullptr;
+  const std::uint16_t* index = nullptr;
+};
+
 /// The mask of `node`, `lane` is words [ (node*4+lane)*words, +words ); empty lanes are zero.
 struct ObjectMasks {
   int resolution = 4;
   int words = 1;
   std::vector<std::uint64_t> bits;
+  std::vector<std::uint16_t> index;  ///< [node*4+lane], entry of the compression LUT; empty: not compressed
   const std::uint64_t* mask(std::uint32_t node, int lane) const {
     return bits.data() + (static_cast<std::size_t>(node) * 4 + lane) * words;
+  }
+  NodeMasks of(std::uint32_t node) const {
+    return {mask(node, 0), index.empty() ? nullptr : index.data() + static_cast<std::size_t>(node) * 4};
   }
 };
 

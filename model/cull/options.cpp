@@ -15,8 +15,19 @@ struct Name {
 constexpr Name kNames[] = {{Design::None, "none"},
                            {Design::Ideal, "ideal"},
                            {Design::MaskLut, "mask-lut"},
+                           {Design::BitTable, "bit-table"},
+                           {Design::Dedup, "dedup"},
                            {Design::Projection, "projection"},
                            {Design::Comparators, "comparators"}};
+
+struct SelectionName {
+  Selection selection;
+  std::string_view text;
+};
+
+constexpr SelectionName kSelectionNames[] = {{Selection::TopPerNode, "top-per-node"},
+                                             {Selection::TopSummed, "top-summed"},
+                                             {Selection::Refined, "refined"}};
 
 void require_range(std::string_view name, int value, int least, int most) {
   if (value >= least && value <= most) return;
@@ -38,10 +49,24 @@ std::optional<Design> design_from_string(std::string_view text) {
   return std::nullopt;
 }
 
+std::string_view to_string(Selection selection) {
+  for (const SelectionName& name : kSelectionNames)
+    if (name.selection == selection) return name.text;
+  return "unknown";
+}
+
+std::optional<Selection> selection_from_string(std::string_view text) {
+  for (const SelectionName& name : kSelectionNames)
+    if (name.text == text) return name.selection;
+  return std::nullopt;
+}
+
 void validate(const MaskOptions& options) {
   require_range("mask resolution R", options.resolution, kMinResolution, kMaxResolution);
   require_range("ray resolution R_ray", options.ray_resolution, kMinResolution, kMaxRayResolution);
   require_range("mask levels L", options.levels, kUnlimitedLevels, kMaxLevels);
+  if (options.entries != 0)
+    require_range("entries of the compression LUT", options.entries, kMinEntries, kMaxEntries);
 }
 
 }  // namespace ctu::cull

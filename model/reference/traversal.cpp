@@ -101,7 +101,7 @@ class Walk {
     else
       intersect::slab_test_outer(ray_, node.boxes, best_.t, times);
     const cull::MaskTestResult outcome =
-        tester_.test(ray_, times, node.boxes, culling_ ? masks_->mask(ref, 0) : nullptr);
+        tester_.test(ray_, times, node.boxes, culling_ ? masks_->of(ref) : cull::NodeMasks{});
     const VisitOrder order = sort_survivors(outcome.pass, times.t0);
     if constexpr (kRecord) {
       unsigned detail = static_cast<unsigned>(outcome.uncertain) << 8;

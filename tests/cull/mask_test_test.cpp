@@ -52,7 +52,7 @@ TEST_P(MaskTest, culling_keeps_every_true_hit) {
       const intersect::SlabTimes times = intersect::slab_test(ray, boxes, c.ray.tmax);
       for (const MaskTester& tester : testers()) {
         const int r = tester.options().resolution;
-        const MaskTestResult result = tester.test(ray, times, boxes, masks[static_cast<std::size_t>(r)].mask(0, 0));
+        const MaskTestResult result = tester.test(ray, times, boxes, masks[static_cast<std::size_t>(r)].of(0));
         ASSERT_EQ(result.pass & ~times.hit, 0);
         ASSERT_EQ(result.uncertain & ~result.pass, 0);
         ++asked;
@@ -83,14 +83,14 @@ TEST_P(MaskTest, projection_answers_as_the_table_and_the_untabled_designs_are_or
     const intersect::SlabTimes times = intersect::slab_test(ray, boxes, c.ray.tmax);
     const std::uint64_t objects[4] = {std::uint64_t{1} << make.integer(0, 63) | std::uint64_t{1}
                                                                                     << make.integer(0, 63)};
-    const MaskTestResult by_table = table.test(ray, times, boxes, objects);
-    const MaskTestResult by_projection = projection.test(ray, times, boxes, objects);
+    const MaskTestResult by_table = table.test(ray, times, boxes, {objects});
+    const MaskTestResult by_projection = projection.test(ray, times, boxes, {objects});
     ASSERT_EQ(by_table.pass, by_projection.pass) << test::text(c);
     ASSERT_EQ(by_table.uncertain, by_projection.uncertain) << test::text(c);
     ASSERT_EQ(by_table.key[0], by_projection.key[0]) << test::text(c);
-    ASSERT_EQ(ideal.test(ray, times, boxes, objects).pass & ~comparators.test(ray, times, boxes, objects).pass, 0)
+    ASSERT_EQ(ideal.test(ray, times, boxes, {objects}).pass & ~comparators.test(ray, times, boxes, {objects}).pass, 0)
         << test::text(c);
-    ASSERT_EQ(none.test(ray, times, boxes, objects).pass, times.hit);
+    ASSERT_EQ(none.test(ray, times, boxes, {objects}).pass, times.hit);
   }
 }
 
@@ -111,7 +111,7 @@ TEST(MaskTester, answers_lanes_that_were_hit_and_no_others) {
                                   std::uint64_t{1} << cell_bit(4, 2, 0, 0), ~std::uint64_t{0}};
   for (const Design design : {Design::Ideal, Design::MaskLut, Design::Projection, Design::Comparators}) {
     const MaskTester tester(design, {});
-    EXPECT_EQ(tester.test(ray, times, boxes, masks).pass, 0b100) << to_string(design);
+    EXPECT_EQ(tester.test(ray, times, boxes, {masks}).pass, 0b100) << to_string(design);
   }
 }
 

@@ -23,8 +23,7 @@ struct Sizes {
 
 CellKey key_of(const int (&begin)[3], const int (&end)[3]) {
   CellKey key;
-  for (int a = 0; a < 3; ++a)
-    key.packed |= static_cast<std::uint32_t>(begin[a]) << (4 * a) | static_cast<std::uint32_t>(end[a]) << (12 + 4 * a);
+  for (int a = 0; a < 3; ++a) key.set(a, begin[a], end[a]);
   return key;
 }
 
@@ -32,7 +31,7 @@ CellKey key_of(const int (&begin)[3], const int (&end)[3]) {
 CellKey key_of_row(std::uint32_t row, int ray) {
   CellKey key;
   for (int field = 0; field < 6; ++field, row /= static_cast<std::uint32_t>(ray))
-    key.packed |= row % static_cast<std::uint32_t>(ray) << (4 * field);
+    key.packed |= row % static_cast<std::uint32_t>(ray) << (5 * field);
   return key;
 }
 
@@ -165,7 +164,7 @@ TEST(RayMaskTable, reversing_a_ray_keeps_its_mask) {
   const RayMaskTable table(5, 4);
   for (std::uint32_t row = 0; row < table.rows(); ++row) {
     const CellKey key = key_of_row(row, 4);
-    const CellKey reversed{key.packed >> 12 | (key.packed & 0xFFFu) << 12};
+    const CellKey reversed{key.packed >> 15 | (key.packed & 0x7FFFu) << 15};
     ASSERT_TRUE(std::equal(table.row(row), table.row(row) + table.words(), table.row(table.row_index(reversed))));
   }
 }

@@ -233,7 +233,7 @@ TEST(BankedMemory, latency_grows_with_load_and_with_refresh_and_half_the_peak_is
 }
 
 /// A key whose row of the paper's table is `begin_x` (with R_ray = 4) plus 4^3 * end_x.
-std::uint32_t key_of(unsigned begin_x, unsigned end_x = 0) { return begin_x | (end_x << 12); }
+std::uint32_t key_of(unsigned begin_x, unsigned end_x = 0) { return begin_x | (end_x << 15); }
 
 LaneKeys keys_of(std::initializer_list<std::uint32_t> list) {
   LaneKeys keys;
