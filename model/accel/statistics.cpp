@@ -5,13 +5,18 @@ namespace {
 
 double area(double x, double y, double z) { return 2 * (x * y + y * z + z * x); }
 
-double lane_area(const intersect::Box4& b, int lane) {
+}  // namespace
+
+double surface_area(const intersect::Box4& boxes, int lane) {
   double extent[3];
-  for (int axis = 0; axis < 3; ++axis) extent[axis] = static_cast<double>(b.hi[axis][lane]) - b.lo[axis][lane];
+  for (int axis = 0; axis < 3; ++axis) extent[axis] = static_cast<double>(boxes.hi[axis][lane]) - boxes.lo[axis][lane];
   return area(extent[0], extent[1], extent[2]);
 }
 
-}  // namespace
+double surface_area(const Vec3& lower, const Vec3& upper) {
+  return area(static_cast<double>(upper.x) - lower.x, static_cast<double>(upper.y) - lower.y,
+              static_cast<double>(upper.z) - lower.z);
+}
 
 TreeStatistics statistics(const Bvh4& bvh, double node_cost, double triangle_cost) {
   TreeStatistics s;
@@ -24,7 +29,7 @@ TreeStatistics statistics(const Bvh4& bvh, double node_cost, double triangle_cos
       const ChildRef child = node.child[lane];
       if (child == kEmptyChild) continue;
       ++s.filled_lanes;
-      const double a = lane_area(node.boxes, lane);
+      const double a = surface_area(node.boxes, lane);
       if (is_leaf(child)) {
         ++s.leaves;
         ++s.leaves_of_size[leaf_count(child)];
@@ -34,9 +39,7 @@ TreeStatistics statistics(const Bvh4& bvh, double node_cost, double triangle_cos
       }
     }
   }
-  const double root =
-      area(static_cast<double>(bvh.upper.x) - bvh.lower.x, static_cast<double>(bvh.upper.y) - bvh.lower.y,
-           static_cast<double>(bvh.upper.z) - bvh.lower.z);
+  const double root = surface_area(bvh.lower, bvh.upper);
   if (root > 0) s.sah_cost = (node_cost * (root + node_area) + triangle_cost * triangle_area) / root;
   return s;
 }

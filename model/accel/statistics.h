@@ -16,6 +16,10 @@ struct TreeStatistics {
   double sah_cost = 0;  ///< Eq. 1 of the subspace culling paper; 0 when the root has no area
 };
 
+/// Of a box that is not empty.
+double surface_area(const intersect::Box4& boxes, int lane);
+double surface_area(const Vec3& lower, const Vec3& upper);
+
 /// `node_cost` and `triangle_cost` are C_T and C_I of Eq. 1; the root node counts as an inner node.
 TreeStatistics statistics(const Bvh4& bvh, double node_cost = 1, double triangle_cost = 1);
 
