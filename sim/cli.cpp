@@ -13,7 +13,12 @@ void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
   auto* scene = app.add_option("scene", args.scenes,
                                "scene file (.obj .ply .gltf .glb .pbrt .scn .hair .tfx .nff .list, each also .zst) or "
                                "a generated one: gen:hair-ball?strands=2000&seed=1");
-  scene->required()->expected(1, several ? -1 : 1);
+  scene->expected(several ? 0 : 1, several ? -1 : 1);
+  if (several)
+    app.add_option("--index", args.index,
+                   "file with a line NAME PATH for each scene; SCENE may be such a NAME, no SCENE means all");
+  else
+    scene->required();
   app.add_option("--thickness", args.strand_thickness, "ribbon width of strands in scene units; 0: from the file");
   app.add_option("--eye", args.eye, "camera position x,y,z; otherwise the scene's own, or one that sees all of it");
   app.add_option("--target", args.target, "what the camera looks at, x,y,z");

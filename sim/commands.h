@@ -11,6 +11,7 @@ namespace ctu::sim {
 /// Which rays, on which tree, with which masks: shared by every command that starts from a scene.
 struct SceneArgs {
   std::vector<std::string> scenes;
+  std::string index;  ///< file that names scenes, for commands that take several
   double strand_thickness = 0;
   std::string eye, target, up;   ///< "x,y,z"; empty: as the scene says
   double vertical_fov = 0;       ///< degrees; 0: as the scene says

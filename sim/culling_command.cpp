@@ -1,7 +1,6 @@
 // `ctusim culling`: intersections with each design relative to none, and every hit that changes.
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -9,24 +8,15 @@
 #include "sim/culling_survey.h"
 #include "sim/progress.h"
 #include "sim/scene_args.h"
+#include "sim/scene_list.h"
 
 namespace ctu::sim {
 namespace {
 
-/// "a/bunny/bunny.ply.zst" -> "bunny"; "a/kitchen/scene.pbrt" -> "kitchen".
-std::string short_name(const std::string& name) {
-  if (name.rfind("gen:", 0) == 0) return name;
-  const std::filesystem::path path(name);
-  const std::string file = path.filename().string();
-  const std::string stem = file.substr(0, file.find('.'));
-  return stem == "scene" && path.has_parent_path() ? path.parent_path().filename().string() : stem;
-}
-
-void print_header(const std::vector<DesignSurvey>& rows, bool markdown) {
+void print_header(const std::vector<cull::Design>& designs, bool markdown) {
   std::string names, rule;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    names +=
-        markdown ? fmt::format(" {} |", to_string(rows[i].design)) : fmt::format("{:>13}", to_string(rows[i].design));
+  for (std::size_t i = 1; i < designs.size(); ++i) {
+    names += markdown ? fmt::format(" {} |", to_string(designs[i])) : fmt::format("{:>13}", to_string(designs[i]));
     rule += " ---: |";
   }
   if (markdown)
@@ -44,13 +34,13 @@ double per_million(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : 1e6 * double(part) / double(whole);
 }
 
-void print_row(const std::string& scene, const std::string& rays, const Survey& survey, bool markdown) {
-  const double base = double(survey.designs[0].counts.intersections());
+void print_row(const std::string& scene, const std::string& rays, const RaySurvey& survey, bool markdown) {
+  const double base = double(survey.contenders[0].counts.intersections());
   std::string ratios;
   std::uint64_t lost = 0, near = 0, ties = 0;
   double uncertain = 0;
-  for (std::size_t i = 1; i < survey.designs.size(); ++i) {
-    const DesignSurvey& row = survey.designs[i];
+  for (std::size_t i = 1; i < survey.contenders.size(); ++i) {
+    const ContenderSurvey& row = survey.contenders[i];
     const double percent = base == 0 ? 100 : 100 * double(row.counts.intersections()) / base;
     ratios += markdown ? fmt::format(" {:.1f} % |", percent) : fmt::format("{:>11.1f} %", percent);
     lost += row.lost_hits;
@@ -58,7 +48,7 @@ void print_row(const std::string& scene, const std::string& rays, const Survey& 
     ties += row.ties;
     uncertain = std::max(uncertain, per_million(row.counts.uncertain, row.counts.box_hits));
   }
-  const auto& counts = survey.designs[0].counts;
+  const auto& counts = survey.contenders[0].counts;
   if (markdown)
     fmt::print("| {} | {} | {} | {:.2f} |{} {:.1f} ppm | {} | {} | {} |\n", scene, rays, counts.rays,
                counts.intersections_per_ray(), ratios, uncertain, lost, near, ties);
@@ -72,17 +62,18 @@ const char* name_of(Verdict verdict) {
   return verdict == Verdict::Lost ? "LOST A HIT" : verdict == Verdict::NearMiss ? "near miss" : "tie";
 }
 
-void print_changed(const std::string& scene, const Survey& survey) {
+void print_changed(const std::string& scene, const CullingSurvey& survey) {
   constexpr std::size_t kListed = 20;
-  for (std::size_t i = 0; i < survey.changed.size() && i < kListed; ++i) {
-    const ChangedHit& c = survey.changed[i];
+  const std::vector<ChangedHit>& changed = survey.rays.changed;
+  for (std::size_t i = 0; i < changed.size() && i < kListed; ++i) {
+    const ChangedHit& c = changed[i];
     fmt::print(stderr,
                "{}: {} {}: origin {:a} {:a} {:a} direction {:a} {:a} {:a} t [{:a}, {:a}]: without culling primitive {} "
                "at {:a}, "
                "with it {} at {:a}\n",
-               scene, to_string(c.design), name_of(c.verdict), c.ray.origin.x, c.ray.origin.y, c.ray.origin.z,
-               c.ray.direction.x, c.ray.direction.y, c.ray.direction.z, c.ray.tmin, c.ray.tmax, c.without.primitive,
-               c.without.t, static_cast<std::int32_t>(c.with.primitive), c.with.t);
+               scene, to_string(survey.designs[c.contender]), name_of(c.verdict), c.ray.origin.x, c.ray.origin.y,
+               c.ray.origin.z, c.ray.direction.x, c.ray.direction.y, c.ray.direction.z, c.ray.tmin, c.ray.tmax,
+               c.without.primitive, c.without.t, static_cast<std::int32_t>(c.with.primitive), c.with.t);
   }
 }
 
@@ -96,22 +87,23 @@ std::vector<std::string> ray_kinds(const std::string& list) {
 int culling_command(const CullingArgs& args) {
   const auto designs = parse_designs(args.designs);
   bool lost = false, first = true;
-  for (const std::string& name : args.scene.scenes) {
-    const scene::Scene scene = load_scene(args.scene, name);
+  for (const ListedScene& listed : listed_scenes(args.scene)) {
+    const std::optional<scene::Scene> scene = load_listed(args.scene, listed);
+    if (!scene) continue;
     for (const std::string& kind : ray_kinds(args.scene.rays)) {
       SceneArgs one = args.scene;
       one.rays = kind;
       const traces::RecordOptions options = record_options(one);
-      Survey survey;
+      CullingSurvey survey;
       {
-        Progress bar(short_name(name), 0, "paths");
-        survey = survey_culling(scene, options, designs, [&](std::uint64_t done, std::uint64_t) { bar.update(done); });
+        Progress bar(listed.name, 0, "paths");
+        survey = survey_culling(*scene, options, designs, [&](std::uint64_t done) { bar.update(done); });
       }
       if (first) print_header(survey.designs, args.markdown);
       first = false;
-      print_row(short_name(name), kind, survey, args.markdown);
-      print_changed(short_name(name), survey);
-      for (const DesignSurvey& row : survey.designs) lost |= row.lost_hits != 0;
+      print_row(listed.name, kind, survey.rays, args.markdown);
+      print_changed(listed.name, survey);
+      for (const ContenderSurvey& row : survey.rays.contenders) lost |= row.lost_hits != 0;
     }
   }
   return lost ? 1 : 0;
