@@ -75,13 +75,12 @@ cull::MaskOptions parse_masks(const SceneArgs& args) {
   masks.resolution = args.resolution;
   masks.ray_resolution = args.ray_resolution == 0 ? args.resolution : args.ray_resolution;
   masks.levels = parse_levels(args.levels);
-  const auto check = [](const char* option, int value, int maximum) {
-    if (value < cull::kMinResolution || value > maximum)
-      throw Error(option, fmt::format("{} is out of range", value),
-                  fmt::format("give {} to {}", cull::kMinResolution, maximum));
+  const auto check = [](const char* option, int value, int minimum, int maximum) {
+    if (value < minimum || value > maximum)
+      throw Error(option, fmt::format("{} is out of range", value), fmt::format("give {} to {}", minimum, maximum));
   };
-  check("--r", masks.resolution, cull::kMaxResolution);
-  check("--r-ray", masks.ray_resolution, cull::kMaxRayResolution);
+  check("--r", masks.resolution, cull::kMinResolution, cull::kMaxResolution);
+  check("--r-ray", masks.ray_resolution, masks.resolution, cull::kMaxRayResolution);
   return masks;
 }
 

@@ -132,8 +132,13 @@ CellKey cell_locate(const intersect::PreparedRay& ray, const intersect::SlabTime
       return locate<2>(ray, times, boxes, lane, ray_resolution);
     case 3:
       return locate<3>(ray, times, boxes, lane, ray_resolution);
-    default:
+    case 4:
       return locate<4>(ray, times, boxes, lane, ray_resolution);
+    case 5:
+      return locate<5>(ray, times, boxes, lane, ray_resolution);
+    default:
+      static_assert(plane_groups(kMaxRayResolution) == 6);
+      return locate<6>(ray, times, boxes, lane, ray_resolution);
   }
 }
 

@@ -221,7 +221,7 @@ class Builder {
 }  // namespace
 
 ObjectMasks build_object_masks(const accel::Bvh4& bvh, const MaskOptions& options, int threads) {
-  validate(options);
+  validate_object_masks(options);
   ObjectMasks masks;
   masks.resolution = options.resolution;
   masks.words = words_per_mask(options.resolution);

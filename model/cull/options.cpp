@@ -25,9 +25,8 @@ struct SelectionName {
   std::string_view text;
 };
 
-constexpr SelectionName kSelectionNames[] = {{Selection::TopPerNode, "top-per-node"},
-                                             {Selection::TopSummed, "top-summed"},
-                                             {Selection::Refined, "refined"}};
+constexpr SelectionName kSelectionNames[] = {
+    {Selection::TopPerNode, "top-per-node"}, {Selection::TopSummed, "top-summed"}, {Selection::Refined, "refined"}};
 
 void require_range(std::string_view name, int value, int least, int most) {
   if (value >= least && value <= most) return;
@@ -62,11 +61,14 @@ std::optional<Selection> selection_from_string(std::string_view text) {
 }
 
 void validate(const MaskOptions& options) {
+  validate_object_masks(options);
+  require_range("ray resolution R_ray", options.ray_resolution, options.resolution, kMaxRayResolution);
+}
+
+void validate_object_masks(const MaskOptions& options) {
   require_range("mask resolution R", options.resolution, kMinResolution, kMaxResolution);
-  require_range("ray resolution R_ray", options.ray_resolution, kMinResolution, kMaxRayResolution);
   require_range("mask levels L", options.levels, kUnlimitedLevels, kMaxLevels);
-  if (options.entries != 0)
-    require_range("entries of the compression LUT", options.entries, kMinEntries, kMaxEntries);
+  if (options.entries != 0) require_range("entries of the compression LUT", options.entries, kMinEntries, kMaxEntries);
 }
 
 }  // namespace ctu::cull

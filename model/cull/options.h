@@ -34,7 +34,7 @@ constexpr bool reads_tables(Design design) { return event_class(design) == Desig
 
 inline constexpr int kMinResolution = 2, kMaxResolution = 8;
 inline constexpr int kMaxRayResolution = 3 * kMaxResolution;
-inline constexpr int kMinEntries = 16, kMaxEntries = 4096;  ///< of a compression LUT
+inline constexpr int kMinEntries = 16, kMaxEntries = 4096;   ///< of a compression LUT
 inline constexpr int kUnlimitedLevels = 0, kMaxLevels = 64;  // the paper measures L = 1..5
 
 /// How the entries of a compression LUT are chosen (mask_selection.h).
@@ -60,6 +60,9 @@ struct MaskOptions {
 /// Throws ctu::Error when R, R_ray, L or the number of entries is outside what the tables and keys can hold, or
 /// R_ray < R.
 void validate(const MaskOptions& options);
+
+/// The same for what object masks depend on: all but R_ray.
+void validate_object_masks(const MaskOptions& options);
 
 /// 64-bit words that R^3 bits need.
 constexpr int words_per_mask(int resolution) { return (resolution * resolution * resolution + 63) / 64; }

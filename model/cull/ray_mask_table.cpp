@@ -12,13 +12,11 @@
 #include <numeric>
 #include <string>
 
-#include "model/base/error.h"
 #include "model/cull/cell_bits.h"
+#include "model/cull/table_limit.h"
 
 namespace ctu::cull {
 namespace {
-
-constexpr std::uint64_t kTableLimitBytes = std::uint64_t{1} << 30;  // a table must stay below
 
 /// The run of mask cells overlapped until `end`.
 struct Step {
@@ -103,13 +101,11 @@ void sweep_all(const AxisSweeps& sweeps, int n, std::uint64_t* row) {
 
 std::uint32_t checked_rows(int resolution, int ray_resolution) {
   validate({.resolution = resolution, .ray_resolution = ray_resolution});
-  std::uint64_t rows = 1;
-  for (int i = 0; i < 6; ++i) rows *= static_cast<std::uint64_t>(ray_resolution);
-  const std::uint64_t bytes = rows * 8 * static_cast<std::uint64_t>(words_per_mask(resolution));
-  if (bytes >= kTableLimitBytes)
-    throw Error("ray-mask table, R_ray = " + std::to_string(ray_resolution),
-                "R_ray^6 masks of R = " + std::to_string(resolution) + " take " + std::to_string(bytes >> 20) + " MiB",
-                "choose a smaller R_ray, or the design `projection`, which gives the same masks from R_ray^4 rows");
+  const std::uint64_t rows = key_count(ray_resolution);
+  require_table_fits(
+      "ray-mask table", ray_resolution, "R_ray^6 masks of R = " + std::to_string(resolution),
+      8 * rows * static_cast<std::uint64_t>(words_per_mask(resolution)),
+      "choose a smaller R_ray, or the design `projection`, which gives the same masks from R_ray^4 rows");
   return static_cast<std::uint32_t>(rows);
 }
 
@@ -123,14 +119,6 @@ RayMaskTable::RayMaskTable(int resolution, int ray_resolution)
       bits_(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(words_)) {
   const AxisSweeps sweeps(resolution, ray_resolution);
   with_resolution(resolution, [&](auto r) { sweep_all<r()>(sweeps, ray_resolution_, bits_.data()); });
-}
-
-std::uint32_t RayMaskTable::row_index(CellKey key) const {
-  const auto n = static_cast<std::uint32_t>(ray_resolution_);
-  std::uint32_t index = 0;
-  for (int axis = 2; axis >= 0; --axis) index = index * n + static_cast<std::uint32_t>(key.end(axis));
-  for (int axis = 2; axis >= 0; --axis) index = index * n + static_cast<std::uint32_t>(key.begin(axis));
-  return index;
 }
 
 }  // namespace ctu::cull

@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "model/cull/cell_locate.h"
+#include "model/cull/key_number.h"
 #include "model/cull/options.h"
 
 namespace ctu::cull {
 
-/// R_ray^6 rows of R^3 bits. Row order: begin x fastest, then begin y, z, end x, y, z.
+/// R_ray^6 rows of R^3 bits, in the order of key numbers: begin x fastest, then begin y, z, end x, y, z.
 class RayMaskTable {
  public:
   RayMaskTable(int resolution, int ray_resolution);
@@ -17,7 +18,7 @@ class RayMaskTable {
   int ray_resolution() const { return ray_resolution_; }
   int words() const { return words_; }
   std::uint32_t rows() const { return rows_; }
-  std::uint32_t row_index(CellKey key) const;
+  std::uint32_t row_index(CellKey key) const { return key_number(key, ray_resolution_); }
   const std::uint64_t* row(std::uint32_t index) const {
     return bits_.data() + static_cast<std::size_t>(index) * words_;
   }

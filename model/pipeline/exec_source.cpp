@@ -56,9 +56,12 @@ std::uint8_t ExecSource::box_test(Slot slot, accel::ChildRef node) {
 void ExecSource::locate(Slot slot, unsigned hits) {
   Registers& r = registers_[slot];
   const intersect::Box4& boxes = image_.boxes(r.step.ref);
+  r.full = static_cast<std::uint8_t>(hits & cull::full_lanes(image_.mask(r.step.ref, 0), resolution_));
   for (unsigned rest = hits; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
-    if (design_ == Design::Comparators)
+    if ((r.full >> lane & 1) != 0)
+      r.key[lane] = 0;
+    else if (design_ == Design::Comparators)
       cull::comparator_mask(r.ray, r.times, boxes, lane, resolution_, r.touched[lane]);
     else
       r.key[lane] = cull::cell_locate(r.ray, r.times, boxes, lane, ray_resolution_).packed;
@@ -95,9 +98,10 @@ MaskAnswer ExecSource::mask_test(Slot slot, unsigned hits) {
   for (unsigned rest = hits; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto bit = static_cast<std::uint8_t>(1u << lane);
+    const bool full = (r.full >> lane & 1) != 0;
     const bool uncertain = design_ != Design::Comparators && cull::CellKey{r.key[lane]}.uncertain();
     if (uncertain) answer.uncertain |= bit;
-    if (uncertain || passes(r, lane)) answer.survivors |= bit;
+    if (full || uncertain || passes(r, lane)) answer.survivors |= bit;
   }
   r.step.lanes = static_cast<std::uint8_t>(hits | (static_cast<unsigned>(answer.survivors) << 4));
   r.step.detail = static_cast<std::uint16_t>(static_cast<unsigned>(answer.uncertain) << 8);

@@ -51,6 +51,7 @@ class ExecSource {
     const reference::Step *recorded = nullptr, *recorded_end = nullptr;
     std::uint8_t recorded_tail = 0;
     std::uint8_t dropped = 0;  ///< since the last visit
+    std::uint8_t full = 0;  ///< bit lane: hit, and its object mask is full
     std::uint32_t key[intersect::kLanes] = {};
     std::uint64_t touched[intersect::kLanes][kMaxWords] = {};  ///< of comparators
     float stack_t0[kMaxStackEntries] = {};

@@ -16,12 +16,9 @@ TEST_P(LargeTables, projections_and_table_agree_on_every_key) {
   const auto [resolution, ray_resolution] = GetParam();
   const RayMaskTable table(resolution, ray_resolution);
   const ProjectionTable projections(resolution, ray_resolution);
-  const auto n = static_cast<std::uint32_t>(ray_resolution);
   std::vector<std::uint64_t> words(static_cast<std::size_t>(table.words()));
   for (std::uint32_t row = 0; row < table.rows(); ++row) {
-    CellKey key;
-    std::uint32_t rest = row;
-    for (int field = 0; field < 6; ++field, rest /= n) key.packed |= rest % n << (4 * field);
+    const CellKey key = numbered_key(row, ray_resolution);
     projections.ray_mask(key, words.data());
     ASSERT_TRUE(std::equal(words.begin(), words.end(), table.row(row))) << "key " << std::hex << key.packed;
   }

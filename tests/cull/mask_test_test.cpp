@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "model/cull/mask_words.h"
 #include "tests/cull/cases.h"
 #include "tests/oracle/exact_triangle.h"
 #include "tests/oracle/seed.h"
@@ -18,9 +19,9 @@ const std::vector<MaskTester>& testers() {
     std::vector<MaskTester> made;
     for (int r = kMinResolution; r <= kMaxResolution; ++r) {
       for (const Design design : {Design::None, Design::Ideal, Design::Comparators})
-        made.emplace_back(design, MaskOptions{.resolution = r});
-      made.emplace_back(Design::MaskLut, MaskOptions{.resolution = r, .ray_resolution = r <= 6 ? r : 5});
-      for (const int ray_resolution : {r, 2 * r, 7})
+        made.emplace_back(design, MaskOptions{.resolution = r, .ray_resolution = r});
+      made.emplace_back(Design::MaskLut, MaskOptions{.resolution = r, .ray_resolution = r});
+      for (int ray_resolution = r; ray_resolution <= 3 * r; ++ray_resolution)
         made.emplace_back(Design::Projection, MaskOptions{.resolution = r, .ray_resolution = ray_resolution});
     }
     return made;
@@ -112,6 +113,32 @@ TEST(MaskTester, answers_lanes_that_were_hit_and_no_others) {
   for (const Design design : {Design::Ideal, Design::MaskLut, Design::Projection, Design::Comparators}) {
     const MaskTester tester(design, {});
     EXPECT_EQ(tester.test(ray, times, boxes, {masks}).pass, 0b100) << to_string(design);
+  }
+}
+
+TEST(MaskTester, passes_lanes_with_full_masks_unasked) {
+  // Full masks with an own number of bits in the last word, for a key that would be uncertain (far off) or not zero.
+  for (const test::Family& family : test::families()) {
+    test::CaseMaker make(3);
+    for (int i = 0; i < 50; ++i) {
+      const test::RayAndBox c = make.ray_and_box(family);
+      const int r = make.integer(kMinResolution, kMaxResolution);
+      const std::vector<std::uint64_t> full = full_mask(r);
+      std::vector<std::uint64_t> objects(4 * full.size());
+      std::copy(full.begin(), full.end(), objects.begin());
+      ASSERT_EQ(full_lanes(objects.data(), r), 1u);
+      const intersect::PreparedRay ray = intersect::prepare_ray(c.ray);
+      if (!ray.valid) continue;
+      const intersect::Box4 boxes = test::box_in_lane_0(c.lo, c.hi);
+      const intersect::SlabTimes times = intersect::slab_test(ray, boxes, c.ray.tmax);
+      for (const Design design : {Design::Ideal, Design::Projection, Design::Comparators}) {
+        const MaskTester tester(design, {.resolution = r, .ray_resolution = r});
+        const MaskTestResult result = tester.test(ray, times, boxes, {objects.data()});
+        ASSERT_EQ(result.pass, times.hit) << to_string(design) << ", R " << r << ": " << test::text(c);
+        ASSERT_EQ(result.uncertain, 0);
+        ASSERT_EQ(result.key[0], 0u);
+      }
+    }
   }
 }
 

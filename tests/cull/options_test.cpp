@@ -8,15 +8,17 @@ namespace ctu::cull {
 namespace {
 
 TEST(Options, every_design_is_found_by_its_name) {
-  for (const Design design : {Design::None, Design::Ideal, Design::MaskLut, Design::Projection, Design::Comparators})
+  for (const Design design : {Design::None, Design::Ideal, Design::MaskLut, Design::BitTable, Design::Dedup,
+                              Design::Projection, Design::Comparators})
     EXPECT_EQ(design_from_string(to_string(design)), design) << to_string(design);
   EXPECT_EQ(to_string(Design::MaskLut), "mask-lut");
   EXPECT_FALSE(design_from_string("masklut").has_value());
   EXPECT_FALSE(design_from_string("").has_value());
 }
 
-TEST(Options, projection_shares_the_events_of_the_table_it_equals) {
-  EXPECT_EQ(event_class(Design::Projection), Design::MaskLut);
+TEST(Options, designs_with_the_masks_of_the_table_share_its_events) {
+  for (const Design design : {Design::Projection, Design::BitTable, Design::Dedup})
+    EXPECT_EQ(event_class(design), Design::MaskLut);
   EXPECT_EQ(event_class(Design::Comparators), Design::Comparators);
 }
 
@@ -26,9 +28,16 @@ TEST(Options, masks_take_as_many_words_as_their_bits_need) {
 }
 
 TEST(Options, given_a_value_out_of_range_then_the_error_names_it_and_the_range) {
-  const MaskOptions bad[] = {{.resolution = 1},      {.resolution = 9}, {.ray_resolution = 1},
-                             {.ray_resolution = 17}, {.levels = -1},    {.levels = kMaxLevels + 1}};
-  const char* names[] = {"R", "R", "R_ray", "R_ray", "L", "L"};
+  const MaskOptions bad[] = {{.resolution = 1},
+                             {.resolution = 9},
+                             {.ray_resolution = 3},
+                             {.ray_resolution = 25},
+                             {.resolution = 6, .ray_resolution = 5},
+                             {.levels = -1},
+                             {.levels = kMaxLevels + 1},
+                             {.entries = 15},
+                             {.entries = 4097}};
+  const char* names[] = {"R", "R", "R_ray", "R_ray", "R_ray", "L", "L", "entries", "entries"};
   for (std::size_t i = 0; i < std::size(bad); ++i) {
     try {
       validate(bad[i]);
@@ -38,7 +47,12 @@ TEST(Options, given_a_value_out_of_range_then_the_error_names_it_and_the_range) 
       EXPECT_NE(error.remedy().find("from"), std::string::npos) << error.what();
     }
   }
-  EXPECT_NO_THROW(validate({.resolution = 8, .ray_resolution = 16, .levels = 5}));
+  EXPECT_NO_THROW(validate({.resolution = 8, .ray_resolution = 24, .levels = 5, .entries = 4096}));
+}
+
+TEST(Options, object_masks_alone_have_no_ray_resolution) {
+  EXPECT_NO_THROW(validate_object_masks({.resolution = 8, .ray_resolution = 4}));
+  EXPECT_THROW(validate_object_masks({.resolution = 9}), Error);
 }
 
 }  // namespace

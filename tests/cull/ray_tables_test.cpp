@@ -78,16 +78,16 @@ TEST_P(RayTables, projections_and_table_agree_on_every_key) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Resolutions, RayTables,
-                         testing::Values(Sizes{2, 2}, Sizes{2, 3}, Sizes{2, 7}, Sizes{3, 2}, Sizes{3, 3}, Sizes{3, 5},
-                                         Sizes{3, 6}, Sizes{4, 2}, Sizes{4, 3}, Sizes{4, 4}, Sizes{4, 6}, Sizes{4, 8},
-                                         Sizes{5, 3}, Sizes{5, 5}, Sizes{5, 7}, Sizes{6, 4}, Sizes{6, 6}, Sizes{6, 9},
-                                         Sizes{7, 5}, Sizes{7, 7}, Sizes{8, 4}, Sizes{8, 6}, Sizes{8, 8}),
+                         testing::Values(Sizes{2, 2}, Sizes{2, 3}, Sizes{2, 7}, Sizes{3, 3}, Sizes{3, 5}, Sizes{3, 6},
+                                         Sizes{3, 7}, Sizes{4, 4}, Sizes{4, 5}, Sizes{4, 6}, Sizes{4, 8}, Sizes{5, 5},
+                                         Sizes{5, 7}, Sizes{6, 6}, Sizes{6, 9}, Sizes{7, 7}, Sizes{7, 8}, Sizes{8, 8},
+                                         Sizes{8, 9}),
                          [](const auto& info) {
                            return "R" + std::to_string(info.param.r) + "_Rray" + std::to_string(info.param.ray);
                          });
 
 TEST(RayMaskTable, a_cell_is_set_iff_no_plane_separates_it_from_the_swept_cell) {
-  for (const Sizes s : {Sizes{2, 5}, Sizes{3, 4}, Sizes{4, 4}, Sizes{4, 6}, Sizes{5, 3}, Sizes{8, 3}}) {
+  for (const Sizes s : {Sizes{2, 5}, Sizes{3, 4}, Sizes{4, 4}, Sizes{4, 6}, Sizes{5, 5}}) {
     const RayMaskTable table(s.r, s.ray);
     for (std::uint32_t row = 0; row < table.rows(); ++row) {
       const CellKey key = key_of_row(row, s.ray);
@@ -105,7 +105,7 @@ TEST(RayMaskTable, every_point_between_two_cells_lies_in_a_set_cell) {
   SCOPED_TRACE(oracle::seed_note());
   std::mt19937_64 random(oracle::test_seed());
   auto pick = [&](int below) { return static_cast<int>(random() % static_cast<unsigned>(below)); };
-  for (const Sizes s : {Sizes{4, 4}, Sizes{4, 7}, Sizes{6, 5}, Sizes{8, 8}}) {
+  for (const Sizes s : {Sizes{4, 4}, Sizes{4, 7}, Sizes{6, 7}, Sizes{8, 8}}) {
     const RayMaskTable table(s.r, s.ray);
     constexpr int kFine = 60, kSteps = 97;  // positions a ray cell, points a segment
     const int span = kFine * s.ray;
@@ -161,11 +161,10 @@ TEST(ProjectionTable, distinct_rows_are_the_published_ones) {
 }
 
 TEST(RayMaskTable, reversing_a_ray_keeps_its_mask) {
-  const RayMaskTable table(5, 4);
+  const RayMaskTable table(5, 5);
   for (std::uint32_t row = 0; row < table.rows(); ++row) {
-    const CellKey key = key_of_row(row, 4);
-    const CellKey reversed{key.packed >> 15 | (key.packed & 0x7FFFu) << 15};
-    ASSERT_TRUE(std::equal(table.row(row), table.row(row) + table.words(), table.row(table.row_index(reversed))));
+    const std::uint64_t* backwards = table.row(table.row_index(reversed(key_of_row(row, 5))));
+    ASSERT_TRUE(std::equal(table.row(row), table.row(row) + table.words(), backwards));
   }
 }
 
@@ -193,8 +192,11 @@ TEST(RayMaskTable, given_a_table_of_a_gibibyte_then_the_error_names_r_ray_and_a_
 
 TEST(TableLimits, given_a_resolution_that_keys_cannot_hold_then_they_throw) {
   EXPECT_THROW(RayMaskTable(9, 4), Error);
-  EXPECT_THROW(RayMaskTable(4, 17), Error);
+  EXPECT_THROW(RayMaskTable(4, 25), Error);
+  EXPECT_THROW(RayMaskTable(4, 3), Error);
   EXPECT_THROW(ProjectionTable(1, 4), Error);
+  EXPECT_THROW(ProjectionTable(6, 5), Error);
+  EXPECT_NO_THROW(ProjectionTable(8, 24));
 }
 
 }  // namespace
