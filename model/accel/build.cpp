@@ -9,6 +9,7 @@
 
 #include "model/accel/binary_tree.h"
 #include "model/accel/collapse.h"
+#include "model/accel/mesh_check.h"
 #include "model/accel/split.h"
 #include "model/base/error.h"
 #include "model/base/parallel.h"
@@ -35,35 +36,6 @@ void check_count(std::size_t triangles) {
   if (triangles > kMaxTriangles)
     throw Error("mesh", fmt::format("{} triangles", triangles),
                 fmt::format("the unit's child references name at most {}", kMaxTriangles));
-}
-
-/// Whether the three corners exist and are finite: x - x is 0 for those, NaN for the others.
-bool is_usable(const scene::Mesh& mesh, const std::array<std::uint32_t, 3>& corners) {
-  for (const std::uint32_t corner : corners) {
-    if (corner >= mesh.vertices.size()) return false;
-    const Vec3& v = mesh.vertices[corner];
-    if (!((v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0)) return false;
-  }
-  return true;
-}
-
-/// Checks every triangle and returns the bounds of those there are.
-Box3 checked_bounds(const scene::Mesh& mesh, int threads) {
-  const std::size_t count = mesh.triangles.size();
-  std::vector<Box3> partial((count + kChunkTriangles - 1) / kChunkTriangles, Box3::empty());
-  parallel_chunks(count, kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
-    Box3 box = Box3::empty();
-    for (std::size_t i = first; i < last; ++i) {
-      if (!is_usable(mesh, mesh.triangles[i]))
-        throw Error(fmt::format("mesh, triangle {}", i), "a vertex is missing or not finite",
-                    "remove the triangle or repair the vertex");
-      for (const std::uint32_t corner : mesh.triangles[i]) box.grow(to_vector(mesh.vertices[corner]));
-    }
-    partial[first / kChunkTriangles] = box;
-  });
-  Box3 bounds = Box3::empty();
-  for (const Box3& box : partial) bounds.grow(box);
-  return bounds;
 }
 
 /// A power of two that brings the scene's extent near 1, so that areas neither overflow nor vanish: the builder

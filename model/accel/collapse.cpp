@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "model/accel/box3.h"
+#include "model/accel/node_box.h"
 
 namespace ctu::accel {
 namespace {
@@ -72,12 +72,6 @@ class Writer {
     int count = 0;
   };
 
-  static Vec3 to_vec3(__m128 v) {
-    alignas(16) float f[4];
-    _mm_store_ps(f, v);
-    return {f[0], f[1], f[2]};
-  }
-
   Lanes lanes_of(Place parent) const {
     Lanes lanes;
     share_out(parent, forests_[parent.node].left[3], 4, lanes);
@@ -105,7 +99,8 @@ class Writer {
     for (int lane = 0; lane < intersect::kLanes; ++lane) {
       Box3 box = Box3::empty();
       const ChildRef child = lane < lanes.count ? write_child(lanes.place[lane], depth, box) : kEmptyChild;
-      set_lane(out_.nodes[index], lane, child, box);
+      set_lane_box(out_.nodes[index], lane, box);
+      out_.nodes[index].child[lane] = child;
       bounds.grow(box);
     }
     return bounds;
@@ -114,27 +109,13 @@ class Writer {
   ChildRef write_child(Place p, int depth, Box3& box) {
     const BinaryNode& node = tree_[p.node];
     if (forests_[p.node].left[0] == 0) {
-      for (std::uint32_t i = 0; i < node.triangles; ++i) grow(box, out_.triangles[p.first + i]);
-      return make_leaf(p.first, static_cast<int>(node.triangles));
+      const int count = static_cast<int>(node.triangles);
+      box = box_of_triangles(out_.triangles.data() + p.first, count);
+      return make_leaf(p.first, count);
     }
     const auto child = static_cast<ChildRef>(out_.nodes.size());
     box = write(lanes_of(p), depth + 1);
     return child;
-  }
-
-  static void grow(Box3& box, const LeafTriangle& triangle) {
-    box.grow(to_vector(triangle.v0));
-    box.grow(to_vector(triangle.v1));
-    box.grow(to_vector(triangle.v2));
-  }
-
-  static void set_lane(Node4& node, int lane, ChildRef child, const Box3& box) {
-    const Vec3 lower = to_vec3(box.lower), upper = to_vec3(box.upper);
-    for (int axis = 0; axis < 3; ++axis) {
-      node.boxes.lo[axis][lane] = lower[axis];
-      node.boxes.hi[axis][lane] = upper[axis];
-    }
-    node.child[lane] = child;
   }
 
   std::span<const BinaryNode> tree_;
