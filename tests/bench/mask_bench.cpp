@@ -1,4 +1,4 @@
-// Seconds to build object masks, by R, L and threads; and to refit tree and masks after some of the vertices have
+// Time to build object masks, by R, L and threads; and to refit tree and masks after some of the vertices have
 // moved. The scene is the first argument that is no benchmark flag; a generated one if there is none.
 //
 //   ctu_bench_masks bunny.obj --benchmark_filter=build/
@@ -87,7 +87,10 @@ void refit_boxes_and_masks(benchmark::State& state, const Fixture& fixture, doub
 
 template <class Body>
 void add(const std::string& name, Body body) {
-  benchmark::RegisterBenchmark(name.c_str(), body)->Unit(benchmark::kMillisecond)->UseRealTime()->MinTime(0.3);
+  benchmark::RegisterBenchmark(name.c_str(), body)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->MeasureProcessCPUTime();
 }
 
 void register_builds(const Fixture& fixture, int threads) {
