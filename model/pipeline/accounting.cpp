@@ -28,6 +28,8 @@ constexpr Term kPlaceTerms[kPlaces] = {
     {"node_fetch_miss", "fetching a node with at least one line from memory"},
     {"box_test", "in the box test"},
     {"cell_locate", "finding begin and end cells, or touched cells"},
+    {"table_fetch_hit", "fetching table rows all of whose lines are in the cache"},
+    {"table_fetch_miss", "fetching table rows with at least one line from memory"},
     {"mask_test", "in the mask test, table conflicts included"},
     {"child_sort", "in the sort of the surviving children"},
     {"traversal_stack", "waiting for the stack, pushing, dropping, popping"},

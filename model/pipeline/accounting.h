@@ -66,6 +66,8 @@ enum class Place : std::uint8_t {
   NodeFetchMiss,
   BoxTest,
   CellLocate,
+  TableFetchHit,
+  TableFetchMiss,
   MaskTest,
   ChildSort,
   Stack,
@@ -76,7 +78,7 @@ enum class Place : std::uint8_t {
   HitUpdate,
   Result,
 };
-inline constexpr int kPlaces = 15;
+inline constexpr int kPlaces = 17;
 
 std::string_view name_of(Place place);
 std::string_view description_of(Place place);

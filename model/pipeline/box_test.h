@@ -29,7 +29,7 @@ class BoxTest {
     return step_pipelined(now, node, tested, pipe_, account, [&](const RefToken& token) {
       contexts_.move(token.slot, now, Place::BoxTest);
       const std::uint8_t hits = source_.box_test(token.slot, token.ref);
-      pipe_.enter(now, {token.slot, hits, hits, 0});
+      pipe_.enter(now, {token.slot, hits, hits, 0, 0});
       ++nodes_;
       box_hits_ += static_cast<unsigned>(std::popcount(hits));
     });

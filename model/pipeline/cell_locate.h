@@ -1,9 +1,10 @@
 // cell_locate: for each lane hit, where the ray's segment begins and ends in the box's grid (designs with tables), or
-// which cells it touches (comparators). Left out when there is no mask test.
+// which cells it touches (comparators). A lane whose object mask is full passes unasked: whatever the ray touches is
+// occupied, so it takes no turn here, no table row and no mask test. Left out when there is no mask test.
 //
 //   in   tested   the lanes hit
-//   out  located  the same; keys, or touched cells, stay with the context
-//   A node with h lanes hit keeps the entrance for ceil(h / units) cycles, at least one. Latency cell_locate.latency
+//   out  located  the same, with the lanes asked; their keys, or touched cells, stay with the context
+//   A node with a lanes asked keeps the entrance for ceil(a / units) cycles, at least one. Latency cell_locate.latency
 //   (bisection on [t0, t1]: adders and comparisons only) or comparators.latency, counted from the last of these cycles.
 //   stalls: output_full
 #pragma once
@@ -30,16 +31,19 @@ class CellLocate {
   bool step(Cycle now) {
     return step_pipelined(now, tested, located, pipe_, account, [&](const NodeToken& token) {
       contexts_.move(token.slot, now, Place::CellLocate);
-      source_.locate(token.slot, token.hits);
-      const int lanes = std::popcount(token.hits);
+      const std::uint8_t asked = source_.locate(token.slot, token.hits);
+      const int lanes = std::popcount(asked);
       const int cycles = lanes == 0 ? 1 : (lanes + units_ - 1) / units_;
-      pipe_.enter(now, token, static_cast<Cycle>(cycles));
+      pipe_.enter(now, {token.slot, token.hits, token.hits, 0, asked}, static_cast<Cycle>(cycles));
       lanes_ += static_cast<unsigned>(lanes);
+      lanes_unasked_ += static_cast<unsigned>(std::popcount(token.hits) - lanes);
       occupied_ += static_cast<unsigned>(cycles);
     });
   }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
   std::uint64_t lanes() const { return lanes_; }
+  /// Lanes hit that pass without a question.
+  std::uint64_t lanes_unasked() const { return lanes_unasked_; }
   /// Cycles in which the entrance was taken.
   std::uint64_t occupied() const { return occupied_; }
 
@@ -58,7 +62,7 @@ class CellLocate {
   Source& source_;
   int units_;
   Pipe<NodeToken> pipe_;
-  std::uint64_t lanes_ = 0, occupied_ = 0;
+  std::uint64_t lanes_ = 0, lanes_unasked_ = 0, occupied_ = 0;
 };
 
 }  // namespace ctu::pipeline

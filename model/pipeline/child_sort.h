@@ -26,7 +26,7 @@ class ChildSort {
   bool step(Cycle now) {
     return step_pipelined(now, survivors, sorted, pipe_, account, [&](const NodeToken& token) {
       contexts_.move(token.slot, now, Place::ChildSort);
-      pipe_.enter(now, {token.slot, token.hits, token.survivors, source_.child_order(token.slot, token.survivors)});
+      pipe_.enter(now, {token.slot, token.hits, token.survivors, source_.child_order(token.slot, token.survivors), 0});
     });
   }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }

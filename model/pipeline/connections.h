@@ -20,7 +20,7 @@ void for_each_link(Stages<Source, Wiring>& stages, bool has_spills, Join&& join)
   auto& result_queue = Wiring::stage(stages.result_queue);
   auto& memory_port = Wiring::stage(stages.memory_port);
   constexpr int kNode = static_cast<int>(Client::NodeFetch), kLeaf = static_cast<int>(Client::LeafFetch),
-                kStack = static_cast<int>(Client::Stack);
+                kStack = static_cast<int>(Client::Stack), kTable = static_cast<int>(Client::TableFetch);
 
   join("ray_to_scheduler", ray_queue.to_scheduler, scheduler.from_rays);
   join("ray_to_result", ray_queue.to_result, result_queue.from_rays);
@@ -32,7 +32,13 @@ void for_each_link(Stages<Source, Wiring>& stages, bool has_spills, Join&& join)
     auto& cell_locate = Wiring::stage(*stages.cell_locate);
     auto& mask_test = Wiring::stage(*stages.mask_test);
     join("box_to_locate", box_test.tested, cell_locate.tested);
-    join("locate_to_mask", cell_locate.located, mask_test.located);
+    if (stages.table_fetch) {
+      auto& table_fetch = Wiring::stage(*stages.table_fetch);
+      join("locate_to_table", cell_locate.located, table_fetch.requests);
+      join("table_to_mask", table_fetch.done, mask_test.located);
+    } else {
+      join("locate_to_mask", cell_locate.located, mask_test.located);
+    }
     join("mask_to_sort", mask_test.survivors, child_sort.survivors);
   } else {
     join("box_to_sort", box_test.tested, child_sort.survivors);
@@ -50,6 +56,11 @@ void for_each_link(Stages<Source, Wiring>& stages, bool has_spills, Join&& join)
   if (has_spills) {
     join("stack_to_memory", stack.spills, memory_port.requests[kStack]);
     join("memory_to_stack", memory_port.answers[kStack], stack.refills);
+  }
+  if (stages.table_fetch) {
+    auto& table_fetch = Wiring::stage(*stages.table_fetch);
+    join("table_to_memory", table_fetch.misses, memory_port.requests[kTable]);
+    join("memory_to_table", memory_port.answers[kTable], table_fetch.fills);
   }
 }
 

@@ -144,7 +144,7 @@ std::unique_ptr<Engine> make_with(const UnitConfig& config, const Work& work, co
 
 std::unique_ptr<Engine> make_engine(const UnitConfig& config, const Work& work, const EngineOptions& options) {
   check_consistency(config);
-  check_fits(config, work, options.exec);
+  check_fits(config, work);
   return options.exec ? make_with<ExecSource>(config, work, options) : make_with<ReplaySource>(config, work, options);
 }
 

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "model/cull/bit_rows.h"
 #include "model/intersect/slab_test.h"
 #include "model/intersect/triangle_test.h"
 
@@ -18,6 +19,7 @@ ExecSource::ExecSource(const UnitConfig& config, const UnitImage& image, const c
       resolution_(tester.options().resolution),
       ray_resolution_(tester.options().ray_resolution),
       words_(cull::words_per_mask(tester.options().resolution)),
+      reads_bit_rows_(design_ == Design::BitTable || (design_ == Design::Dedup && image.compressed())),
       registers_(static_cast<std::size_t>(contexts.count())) {}
 
 bool ExecSource::begin(Slot slot) {
@@ -53,57 +55,75 @@ std::uint8_t ExecSource::box_test(Slot slot, accel::ChildRef node) {
   return r.times.hit;
 }
 
-void ExecSource::locate(Slot slot, unsigned hits) {
+std::uint8_t ExecSource::locate(Slot slot, unsigned hits) {
   Registers& r = registers_[slot];
   const intersect::Box4& boxes = image_.boxes(r.step.ref);
-  r.full = static_cast<std::uint8_t>(hits & cull::full_lanes(image_.mask(r.step.ref, 0), resolution_));
-  for (unsigned rest = hits; rest != 0; rest &= rest - 1) {
+  const unsigned asked = hits & ~image_.full_lanes(r.step.ref);
+  for (unsigned rest = asked; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
-    if ((r.full >> lane & 1) != 0)
-      r.key[lane] = 0;
-    else if (design_ == Design::Comparators)
+    if (design_ == Design::Comparators)
       cull::comparator_mask(r.ray, r.times, boxes, lane, resolution_, r.touched[lane]);
     else
       r.key[lane] = cull::cell_locate(r.ray, r.times, boxes, lane, ray_resolution_).packed;
   }
+  return static_cast<std::uint8_t>(asked);
 }
 
-LaneKeys ExecSource::keys(Slot slot, unsigned hits) {
+LaneKeys ExecSource::keys(const NodeToken& token) const {
+  const Registers& r = registers_[token.slot];
   LaneKeys keys;
-  if (design_ == Design::Comparators) return keys;
-  for (unsigned rest = hits; rest != 0; rest &= rest - 1)
-    keys.key[keys.count++] = registers_[slot].key[std::countr_zero(rest)];
+  for (unsigned rest = token.asked; rest != 0; rest &= rest - 1) {
+    const int lane = std::countr_zero(rest);
+    keys.key[keys.count] = r.key[lane];
+    if (image_.compressed()) keys.mask_index[keys.count] = image_.mask_index(r.step.ref, lane);
+    ++keys.count;
+  }
   return keys;
 }
 
-bool ExecSource::passes(const Registers& r, int lane) const {
-  const std::uint64_t* object_mask = image_.mask(r.step.ref, lane);
-  std::uint64_t projected[kMaxWords];
-  const std::uint64_t* ray_mask = r.touched[lane];
+const std::uint64_t* ExecSource::ray_mask(const Registers& r, int lane, std::uint64_t* projected) const {
   const cull::CellKey key{r.key[lane]};
-  if (design_ == Design::MaskLut) {
-    ray_mask = tester_.ray_mask_table()->row(tester_.ray_mask_table()->row_index(key));
-  } else if (design_ == Design::Projection) {
-    tester_.projection_table()->ray_mask(key, projected);
-    ray_mask = projected;
+  switch (design_) {
+    case Design::MaskLut:
+      return tester_.ray_mask_table()->row(tester_.ray_mask_table()->row_index(key));
+    case Design::Dedup:
+      return tester_.dedup_table()->row(tester_.dedup_table()->id(cull::key_number(key, ray_resolution_)));
+    case Design::Projection:
+      tester_.projection_table()->ray_mask(key, projected);
+      return projected;
+    default:
+      return r.touched[lane];
   }
+}
+
+const std::uint64_t* ExecSource::bit_row(const Registers& r, int lane) const {
+  const std::uint32_t key = cull::key_number(cull::CellKey{r.key[lane]}, ray_resolution_);
+  if (design_ == Design::BitTable) return tester_.bit_table()->row(key);
+  return tester_.dedup_table()->row(tester_.dedup_table()->id(key));
+}
+
+bool ExecSource::passes(const Registers& r, int lane) const {
+  if (reads_bit_rows_) return cull::bit_of_row(bit_row(r, lane), image_.mask_index(r.step.ref, lane));
+  std::uint64_t projected[kMaxWords];
+  const std::uint64_t* const ray_mask_words = ray_mask(r, lane, projected);
+  const std::uint64_t* const object_mask = image_.mask(r.step.ref, lane);
   std::uint64_t common = 0;
-  for (int word = 0; word < words_; ++word) common |= ray_mask[word] & object_mask[word];
+  for (int word = 0; word < words_; ++word) common |= ray_mask_words[word] & object_mask[word];
   return common != 0;
 }
 
-MaskAnswer ExecSource::mask_test(Slot slot, unsigned hits) {
-  Registers& r = registers_[slot];
+MaskAnswer ExecSource::mask_test(const NodeToken& token) {
+  Registers& r = registers_[token.slot];
   MaskAnswer answer;
-  for (unsigned rest = hits; rest != 0; rest &= rest - 1) {
+  answer.survivors = static_cast<std::uint8_t>(token.hits & ~token.asked);
+  for (unsigned rest = token.asked; rest != 0; rest &= rest - 1) {
     const int lane = std::countr_zero(rest);
     const auto bit = static_cast<std::uint8_t>(1u << lane);
-    const bool full = (r.full >> lane & 1) != 0;
     const bool uncertain = design_ != Design::Comparators && cull::CellKey{r.key[lane]}.uncertain();
     if (uncertain) answer.uncertain |= bit;
-    if (full || uncertain || passes(r, lane)) answer.survivors |= bit;
+    if (uncertain || passes(r, lane)) answer.survivors |= bit;
   }
-  r.step.lanes = static_cast<std::uint8_t>(hits | (static_cast<unsigned>(answer.survivors) << 4));
+  r.step.lanes = static_cast<std::uint8_t>(token.hits | (static_cast<unsigned>(answer.survivors) << 4));
   r.step.detail = static_cast<std::uint16_t>(static_cast<unsigned>(answer.uncertain) << 8);
   return answer;
 }

@@ -24,9 +24,9 @@ class ExecSource {
   bool begin(Slot slot);
   void visit(Slot slot, accel::ChildRef ref);
   std::uint8_t box_test(Slot slot, accel::ChildRef node);
-  void locate(Slot slot, unsigned hits);
-  LaneKeys keys(Slot slot, unsigned hits);
-  MaskAnswer mask_test(Slot slot, unsigned hits);
+  std::uint8_t locate(Slot slot, unsigned hits);
+  LaneKeys keys(const NodeToken& token) const;
+  MaskAnswer mask_test(const NodeToken& token);
   std::uint8_t child_order(Slot slot, unsigned survivors);
   void pushed(Slot slot, int position, int lane);
   void begin_pop(Slot) {}
@@ -51,19 +51,23 @@ class ExecSource {
     const reference::Step *recorded = nullptr, *recorded_end = nullptr;
     std::uint8_t recorded_tail = 0;
     std::uint8_t dropped = 0;  ///< since the last visit
-    std::uint8_t full = 0;  ///< bit lane: hit, and its object mask is full
     std::uint32_t key[intersect::kLanes] = {};
     std::uint64_t touched[intersect::kLanes][kMaxWords] = {};  ///< of comparators
     float stack_t0[kMaxStackEntries] = {};
   };
 
   bool passes(const Registers& r, int lane) const;
+  /// The cells the ray touches, by the design's tables or comparators; `projected` is room for a mask.
+  const std::uint64_t* ray_mask(const Registers& r, int lane, std::uint64_t* projected) const;
+  /// The answers for every entry of the compression LUT.
+  const std::uint64_t* bit_row(const Registers& r, int lane) const;
 
   const UnitImage& image_;
   Contexts& contexts_;
   const cull::MaskTester& tester_;
   cull::Design design_;
   int resolution_, ray_resolution_, words_;
+  bool reads_bit_rows_;
   std::vector<Registers> registers_;
   std::uint64_t event_mismatches_ = 0;
 };

@@ -2,16 +2,18 @@
 #pragma once
 
 #include "model/pipeline/line_fetch.h"
+#include "model/pipeline/span_lines.h"
 
 namespace ctu::pipeline {
 
 template <class Wiring>
-class LeafFetch : public LineFetch<LeafToken, Wiring> {
+class LeafFetch : public LineFetch<SpanLines<LeafToken>, Wiring> {
  public:
   static constexpr const char* kName = "leaf_fetch";
   LeafFetch(const UnitConfig& config, const UnitImage& image, Contexts& contexts)
-      : LineFetch<LeafToken, Wiring>(kName, config.leaf_cache, config.memory.line_bytes, image, contexts,
-                                     Place::LeafFetchHit, Place::LeafFetchMiss) {}
+      : LineFetch<SpanLines<LeafToken>, Wiring>(kName, config.leaf_cache, config.memory.line_bytes,
+                                                {image, config.memory.line_bytes}, contexts, Place::LeafFetchHit,
+                                                Place::LeafFetchMiss) {}
 };
 
 }  // namespace ctu::pipeline

@@ -1,34 +1,40 @@
-// What node_fetch and leaf_fetch do: bring the lines that hold a node or a leaf.
+// What node_fetch, leaf_fetch and table_fetch do: bring the lines that hold a node, a leaf, or rows of tables. `Lines`
+// says which lines a token needs (span_lines.h, table_lines.h).
 //
-//   in   requests   context and reference
+//   in   requests   tokens
 //   in   fills      lines that memory has answered, by miss register
 //   out  misses     lines asked of memory; the id is the miss register
-//   out  done       contexts all of whose lines are there, in the order of completion
+//   out  done       tokens all of whose lines are there, in the order of completion
 //   A token taken in cycle t looks up its first line in t, and up to `ports` lines a cycle. When the last of n lines
 //   has been looked up, in cycle t + ceil(n / ports) - 1, and all of them hit, the data are read hit_latency cycles
 //   later, and the token leaves in the cycle behind that. One new line a cycle can be asked of memory. A line that
 //   misses takes a miss register and goes to memory, or joins the register that waits for the same line. A line that
 //   comes back takes the tag port for its cycle; contexts that waited for nothing else can leave in the next cycle, one
-//   a cycle, in turn by number. stalls: mshrs_full, memory_port_full, fill_port, output_full, memory
+//   a cycle, in turn by number.
+//   A token that needs no line takes one turn of the lookup and can leave in the next cycle. Where lines are known only
+//   from what the lines before hold, the token is looked up a second time, from the cycle on in which it could
+//   otherwise leave, before new tokens.
+//   stalls: mshrs_full, memory_port_full, fill_port, output_full, memory
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "model/pipeline/cache.h"
 #include "model/pipeline/context.h"
 #include "model/pipeline/link.h"
 #include "model/pipeline/unit_config.h"
-#include "model/pipeline/unit_image.h"
 
 namespace ctu::pipeline {
 
-/// `Done` is the token handed on: RefToken for nodes, LeafToken for leaves.
-template <class Done, class Wiring>
+template <class Lines, class Wiring>
 class LineFetch {
  public:
-  typename Wiring::template In<RefToken> requests;
+  using Token = typename Lines::Token;
+  using Done = typename Lines::Done;
+  typename Wiring::template In<Token> requests;
   typename Wiring::template In<MemoryResponse> fills;
   typename Wiring::template Out<MemoryRequest> misses;
   typename Wiring::template Out<Done> done;
@@ -37,12 +43,12 @@ class LineFetch {
     std::uint64_t lookups = 0, hits = 0, merges = 0, fills = 0, visits = 0, bytes = 0;
   };
 
-  LineFetch(std::string_view name, const CacheConfig& cache, int line_bytes, const UnitImage& image, Contexts& contexts,
+  LineFetch(std::string_view name, const CacheConfig& cache, int line_bytes, Lines lines, Contexts& contexts,
             Place hit_place, Place miss_place)
       : account{name,
                 {Activity::OutputFull, Activity::MshrsFull, Activity::MemoryPortFull, Activity::FillPort,
                  Activity::Memory}},
-        image_(image),
+        lines_(std::move(lines)),
         contexts_(contexts),
         hit_place_(hit_place),
         miss_place_(miss_place),
@@ -60,7 +66,7 @@ class LineFetch {
     moved |= read_data(now);
     Activity lookup = Activity::Idle;
     if (filled) {
-      if (active_ || requests.can_pop(now)) lookup = Activity::FillPort;
+      if (active_ || can_start_again(now) || requests.can_pop(now)) lookup = Activity::FillPort;
     } else {
       lookup = look_up(now);
       moved |= lookup == Activity::Busy || looked_up_something_;
@@ -90,7 +96,7 @@ class LineFetch {
     const int slot = finished_.next_from(turn_);
     finished_.remove(slot);
     turn_ = (slot + 1) & (kMaxContexts - 1);
-    done.push(now, Done{ref_of_[static_cast<std::size_t>(slot)], static_cast<Slot>(slot)});
+    done.push(now, Lines::done(token_of_[static_cast<std::size_t>(slot)]));
     return true;
   }
 
@@ -101,35 +107,57 @@ class LineFetch {
     fills.pop(now);
     tags_.install(line);
     ++counters_.fills;
-    waiters.for_each([&](int slot) { arrived(slot); });
+    waiters.for_each([&](int slot) { arrived(now, slot); });
     return true;
   }
 
   bool read_data(Cycle now) {
     if (reading_head_ == reading_tail_ || reading_[reading_head_ & kRingMask].due > now) return false;
-    arrived(reading_[reading_head_++ & kRingMask].slot);
+    arrived(now, reading_[reading_head_++ & kRingMask].slot);
     return true;
   }
 
   /// One of the things that the context waits for is there: a line from memory, or the end of its data reads.
-  void arrived(int slot) {
-    if (--waiting_for_[static_cast<std::size_t>(slot)] == 0) finished_.add(slot);
+  void arrived(Cycle now, int slot) {
+    if (--waiting_for_[static_cast<std::size_t>(slot)] != 0) return;
+    if constexpr (Lines::kRounds > 1) {
+      if (lines_.needs_more(token_of_[static_cast<std::size_t>(slot)])) {
+        again_[again_tail_++ & kRingMask] = {static_cast<Slot>(slot), now + 1};
+        return;
+      }
+    }
+    finished_.add(slot);
+  }
+
+  /// A token whose second lines can be looked up.
+  bool can_start_again(Cycle now) const {
+    if constexpr (Lines::kRounds == 1) return false;
+    return again_head_ != again_tail_ && again_[again_head_ & kRingMask].due <= now;
+  }
+
+  void start_again() {
+    if constexpr (Lines::kRounds > 1) start(token_of_[again_[again_head_++ & kRingMask].slot]);
   }
 
   /// Busy: went on as far as the ports allow; Idle: nothing to look up; else why it stands.
   Activity look_up(Cycle now) {
     looked_up_something_ = false;
     if (!active_) {
-      if (!requests.can_pop(now)) return Activity::Idle;
-      start(now, requests.front());
-      requests.pop(now);
-      looked_up_something_ = true;  // the request at least has moved
+      if (can_start_again(now)) {
+        start_again();
+      } else {
+        if (!requests.can_pop(now)) return Activity::Idle;
+        accept(now, requests.front());
+        requests.pop(now);
+      }
+      looked_up_something_ = true;  // the token at least has moved
+      if (!active_) return Activity::Busy;
     }
     for (int port = 0; port < ports_; ++port) {
       const Activity outcome = look_up_line(now);
       if (outcome != Activity::Busy) return outcome;
       looked_up_something_ = true;
-      if (line_++ == last_line_) {
+      if (!lines_.next()) {
         reading_[reading_tail_++ & kRingMask] = {slot_, now + hit_latency_};
         active_ = false;
         break;
@@ -138,32 +166,41 @@ class LineFetch {
     return Activity::Busy;
   }
 
-  void start(Cycle now, const RefToken& token) {
-    const ByteSpan span = image_.bytes(token.ref);
+  void accept(Cycle now, const Token& token) {
+    contexts_.move(token.slot, now, hit_place_);
+    token_of_[token.slot] = token;
+    ++counters_.visits;
+    start(token);
+  }
+
+  void start(const Token& token) {
+    const std::uint64_t bytes = lines_.start(token);
+    if constexpr (Lines::kMayNeedNone) {
+      if (bytes == 0) {
+        finished_.add(token.slot);
+        return;
+      }
+    }
     active_ = true;
     slot_ = token.slot;
-    ref_of_[slot_] = token.ref;
-    line_ = span.first >> line_shift_;
-    last_line_ = span.last >> line_shift_;
     waiting_for_[slot_] = 1;  // the end of its data reads
-    contexts_.move(slot_, now, hit_place_);
-    ++counters_.visits;
-    counters_.bytes += span.last - span.first + 1;
+    counters_.bytes += bytes;
   }
 
   Activity look_up_line(Cycle now) {
-    if (tags_.touch(line_)) {
+    const LineNumber line = lines_.current();
+    if (tags_.touch(line)) {
       ++counters_.hits;
     } else {
-      int number = mshrs_.find(line_);
+      int number = mshrs_.find(line);
       if (number >= 0) {
         ++counters_.merges;
       } else {
         if (mshrs_.full()) return Activity::MshrsFull;
         if (last_request_ == now || !misses.can_push(now)) return Activity::MemoryPortFull;
         last_request_ = now;
-        number = mshrs_.allocate(line_);
-        misses.push(now, {line_ << line_shift_, static_cast<std::uint16_t>(number), false});
+        number = mshrs_.allocate(line);
+        misses.push(now, {line << line_shift_, static_cast<std::uint16_t>(number), false});
       }
       mshrs_.wait(number, slot_);
       ++waiting_for_[slot_];
@@ -186,7 +223,7 @@ class LineFetch {
     Cycle due;
   };
 
-  const UnitImage& image_;
+  Lines lines_;
   Contexts& contexts_;
   Place hit_place_, miss_place_;
   int line_shift_, ports_;
@@ -195,11 +232,12 @@ class LineFetch {
   MissRegisters mshrs_;
   bool active_ = false, looked_up_something_ = false;
   Slot slot_ = 0;
-  LineNumber line_ = 0, last_line_ = 0;
   Cycle last_request_ = kNever;
   std::array<Read, kMaxContexts> reading_{};
   std::uint32_t reading_head_ = 0, reading_tail_ = 0;
-  std::array<accel::ChildRef, kMaxContexts> ref_of_{};
+  std::array<Read, Lines::kRounds == 1 ? 1 : kMaxContexts> again_{};
+  std::uint32_t again_head_ = 0, again_tail_ = 0;
+  std::array<Token, kMaxContexts> token_of_{};
   std::array<std::uint8_t, kMaxContexts> waiting_for_{};
   SlotSet finished_;
   int turn_ = 0;

@@ -1,10 +1,13 @@
-// mask_test: does the ray touch an occupied cell? Reads the ray mask of each located lane from the tables on chip (or
-// takes the cells the comparators found) and ANDs it with the lane's object mask. Left out for design none.
+// mask_test: does the ray touch an occupied cell? Reads the ray mask of each lane asked from the design's tables (or
+// takes the cells the comparators found) and ANDs it with the lane's object mask, which compressed masks fetch from the
+// compression LUT by the lane's index; or reads the answer as one bit of a row. Left out for design none.
 //
-//   in   located    the lanes hit, with their keys in the context
-//   out  survivors  the lanes that pass
-//   latency mask_test.latency; a node whose reads do not fit the banks' ports keeps the entrance for more cycles
-//   (table_banks.h), which are stalls by bank_conflict. Uncertain lanes pass without a read.
+//   in   located    the lanes hit and asked, with their keys in the context
+//   out  survivors  the lanes that pass: those not asked (full masks), the uncertain ones, those that share a cell
+//   latency mask_test.latency, and mask_test.second_latency more where resident tables are read twice (dedup); a node
+//   whose reads do not fit the banks' ports keeps the entrance for more cycles (table_banks.h), which are stalls by
+//   bank_conflict. Lanes not asked and uncertain lanes make no read. Rows from table_fetch come with the node: one node
+//   a cycle.
 //   stalls: output_full, bank_conflict
 #pragma once
 
@@ -14,6 +17,7 @@
 #include "model/pipeline/link.h"
 #include "model/pipeline/pipelined.h"
 #include "model/pipeline/table_banks.h"
+#include "model/pipeline/table_reads.h"
 #include "model/pipeline/unit_config.h"
 
 namespace ctu::pipeline {
@@ -25,17 +29,17 @@ class MaskTest {
   typename Wiring::template In<NodeToken> located;
   typename Wiring::template Out<NodeToken> survivors;
 
-  MaskTest(const UnitConfig& config, const cull::MaskTester& tester, Contexts& contexts, Source& source)
-      : contexts_(contexts), source_(source), tables_(config, tester), pipe_(config.mask_test.latency) {}
+  MaskTest(const UnitConfig& config, const cull::OnChipTables& tables, Contexts& contexts, Source& source)
+      : contexts_(contexts), source_(source), tables_(config, tables), pipe_(latency(config)) {}
 
   bool step(Cycle now) {
     bool entered = false;
     const bool moved = step_pipelined(now, located, survivors, pipe_, account, [&](const NodeToken& token) {
       entered = true;
       contexts_.move(token.slot, now, Place::MaskTest);
-      const int cycles = tables_.read(source_.keys(token.slot, token.hits));
-      const MaskAnswer answer = source_.mask_test(token.slot, token.hits);
-      pipe_.enter(now, {token.slot, token.hits, answer.survivors, 0}, static_cast<Cycle>(cycles));
+      const int cycles = tables_.read(source_.keys(token), contexts_[token.slot]);
+      const MaskAnswer answer = source_.mask_test(token);
+      pipe_.enter(now, {token.slot, token.hits, answer.survivors, 0, 0}, static_cast<Cycle>(cycles));
       culled_ += static_cast<unsigned>(std::popcount(static_cast<unsigned>(token.hits & ~answer.survivors)));
       uncertain_ += static_cast<unsigned>(std::popcount(answer.uncertain));
     });
@@ -51,6 +55,11 @@ class MaskTest {
   Account account{kName, {Activity::OutputFull, Activity::BankConflict}};
 
  private:
+  static int latency(const UnitConfig& config) {
+    const bool two_reads = reads_twice(config.mask_test.design) && config.table_cache.bytes == 0;
+    return config.mask_test.latency + (two_reads ? config.mask_test.second_latency : 0);
+  }
+
   Contexts& contexts_;
   Source& source_;
   TableBanks tables_;

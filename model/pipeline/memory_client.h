@@ -8,11 +8,11 @@
 
 namespace ctu::pipeline {
 
-enum class Client : std::uint8_t { NodeFetch, LeafFetch, Stack };
-inline constexpr int kClients = 3;
+enum class Client : std::uint8_t { NodeFetch, LeafFetch, Stack, TableFetch };
+inline constexpr int kClients = 4;
 
-/// Miss registers of both fetches, and one refill for each context.
-inline constexpr std::size_t kMaxOutstandingReads = 2 * 64 + kMaxContexts;
+/// Miss registers of the three fetches, and one refill for each context.
+inline constexpr std::size_t kMaxOutstandingReads = 3 * 64 + kMaxContexts;
 
 struct ClientRequest {
   Client client = Client::NodeFetch;

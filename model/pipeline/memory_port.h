@@ -1,4 +1,5 @@
-// memory_port: the unit's one port to memory. Node fetch, leaf fetch and the stack's spills take turns at it.
+// memory_port: the unit's one port to memory. Node fetch, leaf fetch, the stack's spills and table fetch take turns at
+// it.
 //
 //   in   requests[client], out answers[client]
 //   One request a cycle goes to memory, chosen round-robin among the clients whose request memory can take; one answer
@@ -22,9 +23,9 @@ class MemoryPort {
   typename Wiring::template In<MemoryRequest> requests[kClients];
   typename Wiring::template Out<MemoryResponse> answers[kClients];
 
-  /// `clients`: how many of the clients are there; without spills the stack is left out.
-  MemoryPort(const UnitConfig& config, int clients)
-      : clients_(clients),
+  /// `last`: the last client that is there. Of those before it, one that is left out never asks and so takes no turn.
+  MemoryPort(const UnitConfig& config, Client last)
+      : clients_(static_cast<int>(last) + 1),
         banked_(config.memory.model == MemoryModel::Banked),
         ideal_memory_(config.memory),
         banked_memory_(config.memory) {}

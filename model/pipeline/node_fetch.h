@@ -2,16 +2,18 @@
 #pragma once
 
 #include "model/pipeline/line_fetch.h"
+#include "model/pipeline/span_lines.h"
 
 namespace ctu::pipeline {
 
 template <class Wiring>
-class NodeFetch : public LineFetch<RefToken, Wiring> {
+class NodeFetch : public LineFetch<SpanLines<RefToken>, Wiring> {
  public:
   static constexpr const char* kName = "node_fetch";
   NodeFetch(const UnitConfig& config, const UnitImage& image, Contexts& contexts)
-      : LineFetch<RefToken, Wiring>(kName, config.node_cache, config.memory.line_bytes, image, contexts,
-                                    Place::NodeFetchHit, Place::NodeFetchMiss) {}
+      : LineFetch<SpanLines<RefToken>, Wiring>(kName, config.node_cache, config.memory.line_bytes,
+                                               {image, config.memory.line_bytes}, contexts, Place::NodeFetchHit,
+                                               Place::NodeFetchMiss) {}
 };
 
 }  // namespace ctu::pipeline

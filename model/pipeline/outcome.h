@@ -18,10 +18,12 @@ struct MaskAnswer {
   std::uint8_t uncertain = 0;  ///< bit lane
 };
 
-/// Packed cull::CellKey of the hit lanes, in lane order.
+/// Of the lanes asked, in lane order: packed cull::CellKey (0 for comparators), and where object masks are compressed
+/// the lane's entry of the compression LUT.
 struct LaneKeys {
   int count = 0;
   std::uint32_t key[intersect::kLanes] = {};
+  std::uint32_t mask_index[intersect::kLanes] = {};
 };
 
 /// Recorded steps and image do not belong together, or the unit is wrong: never a matter of timing.

@@ -1,11 +1,10 @@
 // The whole unit: every stage, every link, and one cycle of all of them.
 //
-//   ray_queue -> scheduler -> node_fetch -> box_test -> [cell_locate -> mask_test ->] child_sort -> traversal_stack
-//                    |  ^         |                                                                  |  ^    |
-//                    |  +---------|------------------------------------------------------------------+  |    +->
-//                    result_queue
-//                    +-> leaf_fetch -> triangle_test -> hit_update ------------------------------------+
-//                  memory_port <-> node_fetch, leaf_fetch [, traversal_stack]
+//   ray_queue -> scheduler -> node_fetch -> box_test
+//                  |  ^         -> [cell_locate -> [table_fetch ->] mask_test ->] child_sort -> traversal_stack
+//                  |  +--------------------------------------------------------------------------+  ^  +-> result_queue
+//                  +-> leaf_fetch -> triangle_test -> hit_update -----------------------------------+
+//   memory_port <-> node_fetch, leaf_fetch [, traversal_stack] [, table_fetch]
 //
 // What stands in [ ] is left out when the configuration or the image does not need it (contract 5).
 #pragma once
@@ -24,6 +23,7 @@
 #include "model/pipeline/ray_queue.h"
 #include "model/pipeline/result_queue.h"
 #include "model/pipeline/scheduler.h"
+#include "model/pipeline/table_fetch.h"
 #include "model/pipeline/traversal_stack.h"
 #include "model/pipeline/triangle_test.h"
 #include "model/pipeline/work.h"
@@ -36,22 +36,24 @@ struct UnitState {
   UnitState(const UnitConfig& config_, const Work& work, bool keep_events)
       : config(config_),
         bytes(work.image),
-        tester(work.tester),
-        image(work.image, Source::kComputes),
+        tables(work.tester, config_.mask_test.rows, config_.mask_test.projection_tables),
+        image(work.image, work.tester, Source::kComputes),
         contexts(config_.unit.contexts),
         source(config, image, work.tester, contexts),
         log(keep_events),
         has_mask_test(config.mask_test.design != cull::Design::None),
+        has_table_fetch(config.table_cache.bytes > 0 && !tables.tables().empty()),
         has_spills(image.stack_bound() > config.stack.entries) {}
 
   UnitConfig config;
   const accel::Image& bytes;
-  const cull::MaskTester& tester;
+  cull::OnChipTables tables;
   UnitImage image;
   Contexts contexts;
   Source source;
   EventLog log;
   bool has_mask_test;
+  bool has_table_fetch;
   bool has_spills;
 };
 
@@ -72,10 +74,13 @@ struct Stages {
         triangle_test(s.config, s.contexts, s.source),
         hit_update(s.config, s.contexts, s.source, s.log),
         result_queue(s.config, s.contexts, s.source, s.log, s.bytes),
-        memory_port(s.config, s.has_spills ? kClients : kClients - 1) {
+        memory_port(s.config, s.has_table_fetch ? Client::TableFetch
+                              : s.has_spills    ? Client::Stack
+                                                : Client::LeafFetch) {
     if (!s.has_mask_test) return;
     cell_locate.emplace(s.config, s.contexts, s.source);
-    mask_test.emplace(s.config, s.tester, s.contexts, s.source);
+    if (s.has_table_fetch) table_fetch.emplace(s.config, s.tables, s.image, s.contexts, s.source);
+    mask_test.emplace(s.config, s.tables, s.contexts, s.source);
   }
 
   Holder<RayQueue<Source, Wiring>> ray_queue;
@@ -83,6 +88,7 @@ struct Stages {
   Holder<NodeFetch<Wiring>> node_fetch;
   Holder<BoxTest<Source, Wiring>> box_test;
   std::optional<Holder<CellLocate<Source, Wiring>>> cell_locate;
+  std::optional<Holder<TableFetch<Source, Wiring>>> table_fetch;
   std::optional<Holder<MaskTest<Source, Wiring>>> mask_test;
   Holder<ChildSort<Source, Wiring>> child_sort;
   Holder<TraversalStack<Source, Wiring>> traversal_stack;
@@ -94,8 +100,8 @@ struct Stages {
 
   /// Every stage in its holder, those that may be left out in an optional.
   auto all() {
-    return std::tie(ray_queue, scheduler, node_fetch, box_test, cell_locate, mask_test, child_sort, traversal_stack,
-                    leaf_fetch, triangle_test, hit_update, result_queue, memory_port);
+    return std::tie(ray_queue, scheduler, node_fetch, box_test, cell_locate, table_fetch, mask_test, child_sort,
+                    traversal_stack, leaf_fetch, triangle_test, hit_update, result_queue, memory_port);
   }
 };
 

@@ -21,7 +21,7 @@ class ReplaySource {
   ReplaySource(const UnitConfig& config, const UnitImage& image, const cull::MaskTester&, Contexts& contexts)
       : image_(image),
         contexts_(contexts),
-        keyed_(cull::event_class(config.mask_test.design) == cull::Design::MaskLut),
+        keyed_(cull::reads_tables(config.mask_test.design)),
         registers_(static_cast<std::size_t>(contexts.count())) {}
 
   /// Sets up a context for its ray; whether the ray visits anything.
@@ -51,18 +51,32 @@ class ReplaySource {
   std::uint8_t box_test(Slot slot, accel::ChildRef) {
     return static_cast<std::uint8_t>(registers_[slot].step->box_hits());
   }
-  void locate(Slot, unsigned) {}
-  LaneKeys keys(Slot slot, unsigned hits) {
+  /// The lanes of the node that are asked: hit, and the object mask is not full.
+  std::uint8_t locate(Slot slot, unsigned hits) {
+    const Registers& r = registers_[slot];
+    if (keyed_ && r.key_end - r.key < std::popcount(hits)) [[unlikely]]
+      throw_event_mismatch(contexts_[slot], "a recorded table key is missing");
+    return static_cast<std::uint8_t>(hits & ~image_.full_lanes(r.step->ref));
+  }
+  /// What the lanes asked read tables by. Keys are recorded for every lane hit.
+  LaneKeys keys(const NodeToken& token) const {
+    const Registers& r = registers_[token.slot];
     LaneKeys keys;
-    if (!keyed_) return keys;
-    Registers& r = registers_[slot];
-    keys.count = std::popcount(hits);
-    if (r.key_end - r.key < keys.count) throw_event_mismatch(contexts_[slot], "a recorded table key is missing");
-    for (int i = 0; i < keys.count; ++i) keys.key[i] = *r.key++;
+    const std::uint32_t* key = r.key;
+    for (unsigned rest = token.hits; rest != 0; rest &= rest - 1) {
+      const int lane = std::countr_zero(rest);
+      const std::uint32_t recorded = keyed_ ? *key++ : 0;
+      if ((token.asked >> lane & 1) == 0) continue;
+      keys.key[keys.count] = recorded;
+      if (image_.compressed()) keys.mask_index[keys.count] = image_.mask_index(r.step->ref, lane);
+      ++keys.count;
+    }
     return keys;
   }
-  MaskAnswer mask_test(Slot slot, unsigned) {
-    const reference::Step& step = *registers_[slot].step;
+  MaskAnswer mask_test(const NodeToken& token) {
+    Registers& r = registers_[token.slot];
+    if (keyed_) r.key += std::popcount(token.hits);
+    const reference::Step& step = *r.step;
     return {static_cast<std::uint8_t>(step.survivors()), static_cast<std::uint8_t>(step.uncertain())};
   }
   std::uint8_t child_order(Slot slot, unsigned) {

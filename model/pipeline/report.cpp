@@ -1,8 +1,31 @@
 #include "model/pipeline/report.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace ctu::pipeline {
+namespace {
+
+/// "mask_test.ray_masks" of the memory "ray masks".
+std::string counter_name(const cull::OnChipTable& table) {
+  std::string name = "mask_test." + table.name;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == ' ' || c == '-'; }, '_');
+  return name;
+}
+
+void add_unused_rows(const TableBanks& banks, std::vector<std::string>& lines) {
+  for (std::size_t i = 0; i < banks.tables().size(); ++i) {
+    const cull::OnChipTable& table = banks.tables()[i];
+    const std::uint64_t unused = table.rows - banks.usage(i).rows_used;
+    if (unused > 0)
+      lines.push_back(fmt::format("could be left out: {} of {} rows of {}, never read; {} of {} bits", unused,
+                                  table.rows, table.name, unused * table.row_bits, table.bits()));
+  }
+}
+
+}  // namespace
 
 void CounterList::add_cache(const std::string& stage, std::uint64_t lookups, std::uint64_t hits, std::uint64_t merges,
                             std::uint64_t evictions, std::uint64_t fills, std::uint64_t most_mshrs) {
@@ -22,6 +45,35 @@ void CounterList::add_banked(const BankedMemory::Counters& memory) {
   add("memory.bus_cycles", "cycles", "cycles of data on the buses, summed over channels", memory.bus_cycles);
 }
 
+void CounterList::add_tables(const TableBanks& banks, bool cached, const CacheConfig& cache) {
+  TableBanks::Usage sum;
+  std::uint64_t rows = 0, bits = 0;
+  for (std::size_t i = 0; i < banks.tables().size(); ++i) {
+    const TableBanks::Usage& usage = banks.usage(i);
+    sum.reads += usage.reads;
+    sum.shared_reads += usage.shared_reads;
+    sum.rows_used += usage.rows_used;
+    rows += banks.tables()[i].rows;
+    bits += banks.tables()[i].bits();
+  }
+  add("mask_test.reads", "reads", "table reads, those of one row in one cycle once", sum.reads);
+  add("mask_test.shared_reads", "reads", "reads saved because another lane read the same row", sum.shared_reads);
+  add("mask_test.table_bits", "bits", "all tables", bits);
+  add("mask_test.on_chip_bits", "bits", cached ? "data of table_cache; the tables lie in memory" : "all tables",
+      cached ? static_cast<std::uint64_t>(cache.bytes) * 8 : bits);
+  add("mask_test.rows", "rows", "rows of all tables", rows);
+  add("mask_test.rows_used", "rows", "rows read at least once", sum.rows_used);
+  for (std::size_t i = 0; i < banks.tables().size(); ++i) {
+    const cull::OnChipTable& table = banks.tables()[i];
+    const std::string name = counter_name(table);
+    add(name + ".rows", "rows", "rows of " + table.name, table.rows);
+    add(name + ".row_bits", "bits", "bits of a row", table.row_bits);
+    add(name + ".bits", "bits", "rows * row_bits", table.bits());
+    add(name + ".reads", "reads", "reads of it", banks.usage(i).reads);
+    add(name + ".rows_used", "rows", "rows that this trace reads", banks.usage(i).rows_used);
+  }
+}
+
 std::vector<Cause> ray_cycles(const Contexts& contexts) {
   std::vector<Cause> causes;
   for (int i = 0; i < kPlaces; ++i) {
@@ -31,39 +83,37 @@ std::vector<Cause> ray_cycles(const Contexts& contexts) {
   return causes;
 }
 
-std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& image, const TableBanks* tables,
-                                  int deepest_stack, int most_contexts, int most_node_mshrs, int most_leaf_mshrs) {
+std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& image, const MostUsed& most) {
   std::vector<std::string> lines;
   if (config.mask_test.design == cull::Design::None)
     lines.push_back("cell_locate and mask_test: the unit does not cull; two stages, two links and their tables");
+  else if (most.table_mshrs < 0)
+    lines.push_back(most.tables->tables().empty()
+                        ? "table_fetch and its memory client: the design has no tables; one stage, three links"
+                        : "table_fetch and its memory client: all tables are on chip; one stage, three links");
   if (image.stack_bound() <= config.stack.entries)
     lines.push_back(
         fmt::format("spills of traversal_stack and their memory client: no ray of this tree can hold more than "
                     "{} entries, there are {}; two links",
                     image.stack_bound(), config.stack.entries));
-  const int spare_entries = config.stack.entries - deepest_stack;
+  const int spare_entries = config.stack.entries - most.stack_entries;
   if (spare_entries > 0)
     lines.push_back(fmt::format("could be left out: {} of {} stack entries, never used; {} bits", spare_entries,
                                 config.stack.entries, spare_entries * kStackEntryBytes * 8 * config.unit.contexts));
-  if (tables != nullptr && tables->rows() > 0) {
-    const std::uint64_t rows = tables->rows() * static_cast<std::uint64_t>(tables->tables());
-    const std::uint64_t unused = rows - tables->rows_used();
-    if (unused > 0)
-      lines.push_back(fmt::format("could be left out: {} of {} table rows, never read; {} of {} bits", unused, rows,
-                                  unused * tables->row_bits(), tables->bits()));
-  }
+  if (most.tables != nullptr) add_unused_rows(*most.tables, lines);
   if (config.leaf_cache.bytes == 0) lines.push_back("tags and data of leaf_cache: configured away");
   if (config.node_cache.bytes == 0) lines.push_back("tags and data of node_cache: configured away");
-  if (most_contexts < config.unit.contexts)
+  if (most.contexts < config.unit.contexts)
     lines.push_back(fmt::format("could be left out: {} of {} contexts, never used",
-                                config.unit.contexts - most_contexts, config.unit.contexts));
-  const auto spare_mshrs = [&](const char* name, int most, int configured) {
-    if (most < configured)
-      lines.push_back(fmt::format("could be left out: {} of {} miss registers of {}, never used", configured - most,
+                                config.unit.contexts - most.contexts, config.unit.contexts));
+  const auto spare_mshrs = [&](const char* name, int used, int configured) {
+    if (used < configured)
+      lines.push_back(fmt::format("could be left out: {} of {} miss registers of {}, never used", configured - used,
                                   configured, name));
   };
-  spare_mshrs("node_cache", most_node_mshrs, config.node_cache.mshrs);
-  spare_mshrs("leaf_cache", most_leaf_mshrs, config.leaf_cache.mshrs);
+  spare_mshrs("node_cache", most.node_mshrs, config.node_cache.mshrs);
+  spare_mshrs("leaf_cache", most.leaf_mshrs, config.leaf_cache.mshrs);
+  if (most.table_mshrs >= 0) spare_mshrs("table_cache", most.table_mshrs, config.table_cache.mshrs);
   return lines;
 }
 

@@ -19,15 +19,24 @@ class CounterList {
   void add_cache(const std::string& stage, std::uint64_t lookups, std::uint64_t hits, std::uint64_t merges,
                  std::uint64_t evictions, std::uint64_t fills, std::uint64_t most_mshrs);
   void add_banked(const BankedMemory::Counters& memory);
+  /// The mask test's tables, together and one by one. `cached`: they lie in memory, behind table_cache.
+  void add_tables(const TableBanks& tables, bool cached, const CacheConfig& cache);
   std::vector<Counter> take() { return std::move(counters_); }
 
  private:
   std::vector<Counter> counters_;
 };
 
-/// Sentences of what this run did not need (contract 5). `tables` is null when there is no mask test.
-std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& image, const TableBanks* tables,
-                                  int deepest_stack, int most_contexts, int most_node_mshrs, int most_leaf_mshrs);
+/// What of the unit a run has used at most.
+struct MostUsed {
+  const TableBanks* tables = nullptr;  ///< null when there is no mask test
+  int stack_entries = 0, contexts = 0;
+  int node_mshrs = 0, leaf_mshrs = 0;
+  int table_mshrs = -1;  ///< -1: there is no table_fetch
+};
+
+/// Sentences of what this run did not need (contract 5).
+std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& image, const MostUsed& most);
 
 std::vector<Cause> ray_cycles(const Contexts& contexts);
 
@@ -75,21 +84,27 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
   counters.add("memory.stack_requests", "lines", "lines written and read for spilled stack entries",
                memory_port.requests_of(Client::Stack));
   if (memory_port.banked() != nullptr) counters.add_banked(memory_port.banked()->counters());
-  const TableBanks* on_chip = nullptr;
+  MostUsed most{.stack_entries = pushed.deepest,
+                .contexts = state.contexts.most_occupied(),
+                .node_mshrs = node_fetch.mshrs().most_in_use(),
+                .leaf_mshrs = leaf_fetch.mshrs().most_in_use()};
+  if (stages.table_fetch) {
+    auto& table_fetch = Wiring::stage(*stages.table_fetch);
+    add_fetch(table_fetch);
+    counters.add("memory.table_requests", "lines", "lines read for table rows",
+                 memory_port.requests_of(Client::TableFetch));
+    most.table_mshrs = table_fetch.mshrs().most_in_use();
+  }
   if (stages.mask_test) {
     auto& mask_test = Wiring::stage(*stages.mask_test);
+    auto& cell_locate = Wiring::stage(*stages.cell_locate);
     result.counts.culled = mask_test.culled();
     result.counts.uncertain = mask_test.uncertain();
-    const TableBanks& tables = mask_test.tables();
-    on_chip = &tables;
-    counters.add("cell_locate.lanes", "lanes", "lanes located", Wiring::stage(*stages.cell_locate).lanes());
-    counters.add("mask_test.reads", "reads", "table reads, those of one row in one cycle once", tables.reads());
-    counters.add("mask_test.shared_reads", "reads", "reads saved because another lane read the same row",
-                 tables.shared_reads());
-    counters.add("mask_test.table_bits", "bits", "tables on chip", tables.bits());
-    counters.add("mask_test.rows", "rows", "rows of all tables on chip",
-                 tables.rows() * static_cast<std::uint64_t>(tables.tables()));
-    counters.add("mask_test.rows_used", "rows", "rows read at least once", tables.rows_used());
+    most.tables = &mask_test.tables();
+    counters.add("cell_locate.lanes", "lanes", "lanes located", cell_locate.lanes());
+    counters.add("mask_test.lanes_unasked", "lanes", "lanes hit that passed unasked, their object masks being full",
+                 cell_locate.lanes_unasked());
+    counters.add_tables(mask_test.tables(), state.has_table_fetch, state.config.table_cache);
   }
   counters.add("stack.pushes", "entries", "entries pushed (the nearest child goes straight on)", pushed.pushes);
   counters.add("stack.pops", "entries", "entries popped, dropped ones included", pushed.pops);
@@ -103,8 +118,7 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
 
   result.ray_cycles = ray_cycles(state.contexts);
   result.ray_latency_sum = state.contexts.latency_sum();
-  result.left_out = left_out(state.config, state.image, on_chip, pushed.deepest, state.contexts.most_occupied(),
-                             node_fetch.mshrs().most_in_use(), leaf_fetch.mshrs().most_in_use());
+  result.left_out = left_out(state.config, state.image, most);
   result.event_log_hash = state.log.timed_hash();
   return result;
 }

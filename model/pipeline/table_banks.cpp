@@ -2,71 +2,53 @@
 
 #include <algorithm>
 
+#include "model/pipeline/table_reads.h"
+
 namespace ctu::pipeline {
 
-using cull::Design;
-
-TableBanks::TableBanks(const UnitConfig& config, const cull::MaskTester& tester)
-    : design_(config.mask_test.design),
-      tester_(tester),
+TableBanks::TableBanks(const UnitConfig& config, const cull::OnChipTables& tables)
+    : tables_(tables),
       bank_mask_(static_cast<std::uint32_t>(config.mask_test.banks - 1)),
-      ports_(config.mask_test.ports) {
-  const auto r = static_cast<std::uint64_t>(tester.options().resolution);
-  if (design_ == Design::MaskLut) {
-    tables_ = 1;
-    rows_ = tester.ray_mask_table()->rows();
-    row_bits_ = r * r * r;
-  } else if (design_ == Design::Projection) {
-    tables_ = config.mask_test.projection_tables;
-    rows_ = tester.projection_table()->rows();
-    row_bits_ = r * r;
-  }
-  used_.resize(static_cast<std::size_t>(tables_) * rows_);
+      ports_(config.mask_test.ports),
+      one_after_the_other_(reads_twice(config.mask_test.design)),
+      cached_(config.table_cache.bytes > 0),
+      memories_(tables.tables().size()) {
+  for (std::size_t m = 0; m < memories_.size(); ++m) memories_[m].used.resize(tables.tables()[m].rows);
 }
 
-int TableBanks::read_tables(const LaneKeys& keys) {
-  for (int table = 0; table < tables_; ++table) pending_[table].count = 0;
-  for (int i = 0; i < keys.count; ++i) {
-    const cull::CellKey key{keys.key[i]};
-    if (key.uncertain()) continue;
-    if (design_ == Design::MaskLut) {
-      add(0, tester_.ray_mask_table()->row_index(key));
-    } else {
-      const cull::ProjectionTable& table = *tester_.projection_table();
-      const bool apart = tables_ == kMaxTables;
-      add(0, table.row_index(key, cull::AxisPair::XY));
-      add(apart ? 1 : 0, table.row_index(key, cull::AxisPair::YZ));
-      add(apart ? 2 : 0, table.row_index(key, cull::AxisPair::XZ));
-    }
-  }
+int TableBanks::read_all(const LaneKeys& lanes, const Context& context) {
+  for (Memory& memory : memories_) memory.count = 0;
+  for_each_read(tables_, lanes, context,
+                [&](const cull::TableRead& read, std::uint32_t) { add(memories_[read.table], read.row); });
+  if (cached_) return 1;
+  if (one_after_the_other_) return turns(memories_[0]) + turns(memories_[1]) - 1;
   int most = 1;
-  for (int table = 0; table < tables_; ++table) most = std::max(most, most_in_a_bank(pending_[table]));
-  return ports_ == 1 ? most : (most + ports_ - 1) / ports_;
+  for (const Memory& memory : memories_) most = std::max(most, turns(memory));
+  return most;
 }
 
-void TableBanks::add(int table, std::uint32_t row) {
-  Reads& reads = pending_[table];
-  for (int i = 0; i < reads.count; ++i)
-    if (reads.row[i] == row) {
-      ++shared_;
+void TableBanks::add(Memory& memory, std::uint32_t row) {
+  for (int i = 0; i < memory.count; ++i)
+    if (memory.row[i] == row) {
+      ++memory.usage.shared_reads;
       return;
     }
-  reads.row[reads.count++] = row;
-  ++reads_;
-  auto used = used_[static_cast<std::size_t>(table) * rows_ + row];
+  memory.row[memory.count++] = row;
+  ++memory.usage.reads;
+  auto used = memory.used[row];
   if (used) return;
   used = true;
-  ++rows_used_;
+  ++memory.usage.rows_used;
 }
 
-int TableBanks::most_in_a_bank(const Reads& reads) const {
+int TableBanks::turns(const Memory& memory) const {
   int most = 1;
-  for (int i = 1; i < reads.count; ++i) {
+  for (int i = 1; i < memory.count; ++i) {
     int in_bank = 1;
-    for (int j = 0; j < i; ++j) in_bank += ((reads.row[j] ^ reads.row[i]) & bank_mask_) == 0;
+    for (int j = 0; j < i; ++j) in_bank += ((memory.row[j] ^ memory.row[i]) & bank_mask_) == 0;
     most = std::max(most, in_bank);
   }
-  return most;
+  return ports_ == 1 ? most : (most + ports_ - 1) / ports_;
 }
 
 }  // namespace ctu::pipeline

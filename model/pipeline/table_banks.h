@@ -1,56 +1,56 @@
-// Where the mask test's tables lie on chip, and how many cycles a node's reads of them take.
+// How many cycles a node's reads of the mask test's tables take, and what of the tables was read.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "model/cull/mask_test.h"
+#include "model/cull/on_chip_tables.h"
 #include "model/pipeline/outcome.h"
 #include "model/pipeline/unit_config.h"
 
 namespace ctu::pipeline {
 
-/// Resident tables of the configured design. Row r lies in bank r mod banks; a bank answers `ports` reads a cycle.
-/// Lanes that read the same row of the same table share one read. Keys that are uncertain are not read.
+/// Each memory of the design has mask_test.banks banks: row r lies in bank r mod banks, and a bank answers `ports`
+/// reads a cycle. Lanes that read the same row of the same memory share one read. Memories are read side by side; only
+/// Dedup's second waits for its first. Tables behind a cache have no banks: their rows come with the node
+/// (table_fetch.h).
 class TableBanks {
  public:
-  TableBanks(const UnitConfig& config, const cull::MaskTester& tester);
+  TableBanks(const UnitConfig& config, const cull::OnChipTables& tables);
 
-  /// Cycles that the reads of these keys take: the most over the banks of ceil(reads / ports); at least 1.
-  int read(const LaneKeys& keys) { return design_ == cull::Design::Comparators ? 1 : read_tables(keys); }
+  /// Cycles that the reads of these lanes take, at least 1: of a memory the most over its banks of ceil(reads / ports),
+  /// of all memories the most; of Dedup's two the sum less one, as the second turn of reads begins when the ids are
+  /// there. Throws Error as for_each_read does.
+  int read(const LaneKeys& lanes, const Context& context) { return memories_.empty() ? 1 : read_all(lanes, context); }
 
-  std::uint64_t reads() const { return reads_; }
-  std::uint64_t shared_reads() const { return shared_; }
-  /// Rows of one table, bits of a row, tables on chip.
-  std::uint64_t rows() const { return rows_; }
-  std::uint64_t row_bits() const { return row_bits_; }
-  int tables() const { return tables_; }
-  std::uint64_t bits() const { return rows_ * row_bits_ * static_cast<std::uint64_t>(tables_); }
-  /// Rows read at least once, over all tables.
-  std::uint64_t rows_used() const { return rows_used_; }
+  struct Usage {
+    std::uint64_t reads = 0;         ///< those of one row in one cycle once
+    std::uint64_t shared_reads = 0;  ///< saved, as another lane read the row
+    std::uint64_t rows_used = 0;     ///< rows read at least once
+  };
+  /// Of a memory, by its number in OnChipTables::tables().
+  const Usage& usage(std::size_t memory) const { return memories_[memory].usage; }
+  const std::vector<cull::OnChipTable>& tables() const { return tables_.tables(); }
 
  private:
-  static constexpr int kMaxTables = 3;
-  static constexpr int kMaxReads = 12;  // three for each lane
+  static constexpr int kMaxReads = 3 * intersect::kLanes;  // a single projection table, three reads a lane
 
-  /// The reads of one node at one table.
-  struct Reads {
-    int count = 0;
+  struct Memory {
+    int count = 0;  ///< rows that the node reads
     std::uint32_t row[kMaxReads];
+    Usage usage;
+    std::vector<bool> used;  ///< by row
   };
 
-  int read_tables(const LaneKeys& keys);
-  void add(int table, std::uint32_t row);
-  int most_in_a_bank(const Reads& reads) const;
+  int read_all(const LaneKeys& lanes, const Context& context);
+  static void add(Memory& memory, std::uint32_t row);
+  int turns(const Memory& memory) const;
 
-  cull::Design design_;
-  const cull::MaskTester& tester_;
+  const cull::OnChipTables& tables_;
   std::uint32_t bank_mask_;
-  int ports_, tables_ = 0;
-  std::uint64_t rows_ = 0, row_bits_ = 0;
-  std::vector<bool> used_;  // [table * rows + row]
-  std::uint64_t reads_ = 0, shared_ = 0, rows_used_ = 0;
-  Reads pending_[kMaxTables];
+  int ports_;
+  bool one_after_the_other_, cached_;
+  std::vector<Memory> memories_;
 };
 
 }  // namespace ctu::pipeline

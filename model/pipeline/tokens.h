@@ -30,6 +30,7 @@ struct NodeToken {
   std::uint8_t hits = 0;       ///< bit lane: hit by the slab test
   std::uint8_t survivors = 0;  ///< bit lane: passed the mask test
   std::uint8_t order = 0;      ///< lanes of the survivors, nearest first, 2 bits each
+  std::uint8_t asked = 0;      ///< bit lane: hit, and its object mask is not full, so the mask test has a question
   bool operator==(const NodeToken&) const = default;
 };
 

@@ -23,12 +23,11 @@
 #include "model/pipeline/context.h"
 #include "model/pipeline/event_log.h"
 #include "model/pipeline/link.h"
+#include "model/pipeline/memory_map.h"
 #include "model/pipeline/unit_config.h"
 #include "model/pipeline/unit_image.h"
 
 namespace ctu::pipeline {
-
-inline constexpr int kStackEntryBytes = 8;  ///< reference and t0
 
 template <class Source, class Wiring>
 class TraversalStack {
@@ -55,10 +54,8 @@ class TraversalStack {
         push_width_(config.stack.push_width),
         spill_batch_(config.stack.spill_batch),
         can_spill_(image.stack_bound() > config.stack.entries),
-        line_bytes_(static_cast<std::uint64_t>(config.memory.line_bytes)),
+        map_(config, image),
         bound_(static_cast<std::size_t>(image.stack_bound()) + 1),
-        spill_base_((image.end() + line_bytes_ - 1) / line_bytes_ * line_bytes_),
-        spill_region_(round_up(bound_ * kStackEntryBytes, line_bytes_)),
         refs_(bound_ * static_cast<std::size_t>(contexts.count())) {}
 
   bool step(Cycle now) {
@@ -84,8 +81,6 @@ class TraversalStack {
  private:
   enum class Job : std::uint8_t { None, Push, Pop, Finish };
   static constexpr int kInputs = 3;
-
-  static std::uint64_t round_up(std::uint64_t bytes, std::uint64_t unit) { return (bytes + unit - 1) / unit * unit; }
 
   accel::ChildRef& entry(Slot slot, int position) { return refs_[slot * bound_ + static_cast<std::size_t>(position)]; }
 
@@ -224,7 +219,7 @@ class TraversalStack {
 
   std::uint64_t spill_address(int position) const {
     const std::uint64_t byte = static_cast<std::uint64_t>(position) * kStackEntryBytes;
-    return spill_base_ + slot_ * spill_region_ + byte / line_bytes_ * line_bytes_;
+    return map_.spill_base + slot_ * map_.spill_region + byte / map_.line_bytes * map_.line_bytes;
   }
 
   Contexts& contexts_;
@@ -233,9 +228,8 @@ class TraversalStack {
   const UnitImage& image_;
   int entries_, push_width_, spill_batch_;
   bool can_spill_;
-  std::uint64_t line_bytes_;
+  MemoryMap map_;
   std::size_t bound_;
-  std::uint64_t spill_base_, spill_region_;
   std::vector<accel::ChildRef> refs_;
 
   Job job_ = Job::None;

@@ -92,12 +92,10 @@ void add_front_end(Parameters& list) {
 }
 
 template <class Cache>
-void add_cache(Parameters& list, const std::string& name, const std::string& what, Cache cache) {
+void add_cache(Parameters& list, const std::string& name, const std::string& what, const std::string& about_bytes,
+               Cache cache) {
   list.push_back(integer(
-      name + ".bytes", "bytes", {0, 1 << 26}, [cache](auto& c) -> auto& { return cache(c).bytes; },
-      "Cache of " + what +
-          "; 0: none, every line comes from memory. 64 KiB is an L1 of published "
-          "ray-tracing models."));
+      name + ".bytes", "bytes", {0, 1 << 26}, [cache](auto& c) -> auto& { return cache(c).bytes; }, about_bytes));
   list.push_back(integer(
       name + ".ways", "ways", {1, 16}, [cache](auto& c) -> auto& { return cache(c).ways; },
       "Lines that one set holds; least recently used goes first."));
@@ -124,7 +122,7 @@ void add_memory(Parameters& list) {
       "points and more)."));
   add(
       "line_bytes", "bytes", {32, 512, true}, [](auto& c) -> auto& { return c.memory.line_bytes; },
-      "Line of both caches and of every request to memory. 128 as in published GPU models.");
+      "Line of all caches and of every request to memory. 128 as in published GPU models.");
   add(
       "latency", "cycles", {1, 4096}, [](auto& c) -> auto& { return c.memory.latency; },
       "ideal: from request to answer. Published round trips are 60 to 400.");
@@ -188,17 +186,29 @@ void add_node_path(Parameters& list) {
       "mask_test.design",
       {{"none", cull::Design::None},
        {"mask-lut", cull::Design::MaskLut},
+       {"bit-table", cull::Design::BitTable},
+       {"dedup", cull::Design::Dedup},
        {"projection", cull::Design::Projection},
        {"comparators", cull::Design::Comparators}},
       [](auto& c) -> auto& { return c.mask_test.design; },
       "How the unit finds the cells a ray touches. projection gives the masks of mask-lut "
-      "from 1/21 to 1/1000 of the memory."));
+      "from 1/21 to 1/1000 of the memory. bit-table needs compressed object masks."));
+  list.push_back(choice<cull::TableRows>(
+      "mask_test.rows",
+      {{"all", cull::TableRows::All}, {"folded", cull::TableRows::Folded}, {"reachable", cull::TableRows::Reachable}},
+      [](auto& c) -> auto& { return c.mask_test.rows; },
+      "Rows that the tables have. folded: one for a key and its reverse, and for mirrored keys where a row can be "
+      "mirrored. reachable: of those, only rows for rays from outside the box; refuses rays that begin inside one."));
   list.push_back(integer(
       "mask_test.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.mask_test.latency; },
       "Table read 1, expand and AND 1 (trial synthesis: 2)."));
   list.push_back(integer(
+      "mask_test.second_latency", "cycles", {1, kMaxLatency},
+      [](auto& c) -> auto& { return c.mask_test.second_latency; },
+      "Design dedup: the read with the id, on top of mask_test.latency: a table read, 1 as for the first."));
+  list.push_back(integer(
       "mask_test.banks", "banks", {1, 64, true}, [](auto& c) -> auto& { return c.mask_test.banks; },
-      "Banks of each table; row r lies in bank r mod banks."));
+      "Banks of each resident table; row r lies in bank r mod banks."));
   list.push_back(integer(
       "mask_test.ports", "reads", {1, 4}, [](auto& c) -> auto& { return c.mask_test.ports; },
       "Reads that a bank answers in a cycle."));
@@ -271,12 +281,21 @@ const std::vector<Parameter>& parameters() {
   static const std::vector<Parameter> list = [] {
     Parameters all;
     add_front_end(all);
+    const auto l1_of = [](const char* what) {
+      return "Cache of " + std::string(what) +
+             "; 0: none, every line comes from memory. 64 KiB is an L1 of published ray-tracing models.";
+    };
     add_cache(
-        all, "node_cache", "node", [](auto& c) -> auto& { return c.node_cache; });
+        all, "node_cache", "node", l1_of("node"), [](auto& c) -> auto& { return c.node_cache; });
     add_cache(
-        all, "leaf_cache", "leaf", [](auto& c) -> auto& { return c.leaf_cache; });
+        all, "leaf_cache", "leaf", l1_of("leaf"), [](auto& c) -> auto& { return c.leaf_cache; });
     add_memory(all);
     add_node_path(all);
+    add_cache(
+        all, "table_cache", "node's table rows",
+        "Cache of table rows, when the mask test's tables lie in memory; 0: the tables are resident, on chip as a "
+        "whole, as all designs allow at R = R_ray = 4.",
+        [](auto& c) -> auto& { return c.table_cache; });
     add_leaf_path(all);
     return all;
   }();
@@ -287,6 +306,7 @@ void check_consistency(const UnitConfig& config) {
   check_ranges(config);
   check_cache("node_cache", config.node_cache, config.memory.line_bytes);
   check_cache("leaf_cache", config.leaf_cache, config.memory.line_bytes);
+  check_cache("table_cache", config.table_cache, config.memory.line_bytes);
   if (config.memory.row_bytes < config.memory.line_bytes)
     reject("memory.row_bytes, memory.line_bytes", "a row is smaller than a line", "choose larger rows");
   if (config.memory.t_rfc >= config.memory.t_refi)

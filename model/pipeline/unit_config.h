@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "model/cull/on_chip_tables.h"
 #include "model/cull/options.h"
 
 namespace ctu::pipeline {
@@ -69,11 +70,14 @@ struct UnitConfig {
   } comparators;
   struct {
     cull::Design design = cull::Design::Projection;
+    cull::TableRows rows = cull::TableRows::All;
     int latency = 2;
+    int second_latency = 1;
     int banks = 4;
     int ports = 1;
     int projection_tables = 3;
   } mask_test;
+  CacheConfig table_cache{.bytes = 0};  ///< bytes 0: tables are resident
   struct {
     int latency = 3;
   } child_sort;

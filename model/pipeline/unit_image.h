@@ -8,6 +8,7 @@
 
 #include "model/accel/bvh4.h"
 #include "model/accel/image.h"
+#include "model/cull/mask_test.h"
 
 namespace ctu::pipeline {
 
@@ -18,8 +19,9 @@ struct ByteSpan {
 
 class UnitImage {
  public:
+  /// The masks in the image are those that `tester` asks: R^3 bits, or where it has a compression LUT an index into it.
   /// `arithmetic` false keeps only what replaying recorded outcomes needs.
-  UnitImage(const accel::Image& image, bool arithmetic);
+  UnitImage(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic);
 
   ByteSpan node_bytes(std::uint32_t node) const {
     const std::uint64_t first = node_base_ + node * node_stride_;
@@ -41,22 +43,35 @@ class UnitImage {
   /// First byte behind the image: where spilled stack entries go.
   std::uint64_t end() const { return end_; }
 
+  /// Lanes (bits) whose object mask is full.
+  unsigned full_lanes(std::uint32_t node) const { return full_lanes_[node]; }
+  /// Whether object masks are compressed, and then a lane's entry of the compression LUT.
+  bool compressed() const { return !mask_index_.empty(); }
+  std::uint32_t mask_index(std::uint32_t node, int lane) const {
+    return mask_index_[static_cast<std::size_t>(node) * 4 + static_cast<unsigned>(lane)];
+  }
+
   // Arithmetic only:
   const intersect::Box4& boxes(std::uint32_t node) const { return boxes_[node]; }
   const accel::LeafTriangle& triangle(std::uint32_t index) const { return triangles_[index]; }
-  /// Object mask of a lane, ceil(mask_bits / 64) words.
+  /// Object mask of a lane: R^3 bits.
   const std::uint64_t* mask(std::uint32_t node, int lane) const {
+    if (compressed()) return lut_->entry(static_cast<int>(mask_index(node, lane)));
     return masks_.data() + (static_cast<std::size_t>(node) * 4 + static_cast<unsigned>(lane)) * mask_words_;
   }
-  std::uint32_t mask_bits() const { return mask_bits_; }
 
  private:
+  void read_masks(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic);
+  void read_indices(const accel::Image& image);
+
   std::uint64_t node_base_ = 0, node_stride_ = 0, triangle_base_ = 0, triangle_stride_ = 0, end_ = 0;
   int depth_ = 0;
-  std::uint32_t mask_bits_ = 0;
-  std::size_t mask_words_ = 0;
+  const cull::CompressionLut* lut_;
+  std::size_t mask_words_;
   std::vector<std::array<accel::ChildRef, 4>> children_;
   std::vector<std::uint32_t> primitives_;
+  std::vector<std::uint8_t> full_lanes_;
+  std::vector<std::uint16_t> mask_index_;
   std::vector<intersect::Box4> boxes_;
   std::vector<accel::LeafTriangle> triangles_;
   std::vector<std::uint64_t> masks_;

@@ -7,7 +7,7 @@
 
 namespace ctu::pipeline {
 
-void check_fits(const UnitConfig& config, const Work& work, bool arithmetic) {
+void check_fits(const UnitConfig& config, const Work& work) {
   const cull::Design design = config.mask_test.design;
   if (design == cull::Design::Ideal)
     throw Error("mask_test.design", "ideal culling exists in software only", "choose another design");
@@ -16,14 +16,15 @@ void check_fits(const UnitConfig& config, const Work& work, bool arithmetic) {
                 "the unit has " + std::string(cull::to_string(design)) + ", the tables were built for " +
                     std::string(cull::to_string(work.tester.design())),
                 "build the tables for the unit's design");
-  const int bits_needed =
-      work.tester.options().resolution * work.tester.options().resolution * work.tester.options().resolution;
-  if (arithmetic && design != cull::Design::None &&
-      work.image.layout.mask_bits != static_cast<std::uint32_t>(bits_needed))
+  const int r = work.tester.options().resolution;
+  const cull::CompressionLut* const lut = work.tester.compression_lut();
+  const int bits_needed = lut != nullptr ? lut->index_bits() : r * r * r;
+  if (design != cull::Design::None && work.image.layout.mask_bits != static_cast<std::uint32_t>(bits_needed))
     throw Error("image",
-                "its object masks have " + std::to_string(work.image.layout.mask_bits) + " bits, the tables need " +
+                "its nodes hold " + std::to_string(work.image.layout.mask_bits) + " bits a lane, " +
+                    (lut != nullptr ? "an index into the compression LUT has " : "an object mask has ") +
                     std::to_string(bits_needed),
-                "build image and tables for the same resolution");
+                "build image and tables for the same masks");
   if (3 * work.image.depth + 1 > kMaxStackEntries)
     throw Error("image", "a tree of depth " + std::to_string(work.image.depth) + " needs more stack than a ray has",
                 "allow more triangles in a leaf");

@@ -15,7 +15,7 @@ struct Work {
 };
 
 /// Throws Error where configuration and work do not fit: another design than the tester's, masks of another size, a
-/// stack that no context can hold. `arithmetic`: the unit computes.
-void check_fits(const UnitConfig& config, const Work& work, bool arithmetic);
+/// stack that no context can hold.
+void check_fits(const UnitConfig& config, const Work& work);
 
 }  // namespace ctu::pipeline

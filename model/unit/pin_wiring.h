@@ -30,7 +30,7 @@ inline std::ostream& operator<<(std::ostream& out, const LeafToken& t) {
 }
 inline std::ostream& operator<<(std::ostream& out, const NodeToken& t) {
   return out << "slot " << t.slot << " hits " << int{t.hits} << " survivors " << int{t.survivors} << " order "
-             << int{t.order};
+             << int{t.order} << " asked " << int{t.asked};
 }
 inline std::ostream& operator<<(std::ostream& out, const RecordedTest& t) {
   return out << "slot " << t.slot << " index " << int{t.index} << (t.last ? " last" : "");

@@ -139,7 +139,7 @@ class PinUnit {
 pipeline::UnitResult run_pins(const pipeline::UnitConfig& config, const pipeline::Work& work,
                               const EngineOptions& options) {
   pipeline::check_consistency(config);
-  pipeline::check_fits(config, work, options.exec);
+  pipeline::check_fits(config, work);
   const Simulation simulation;
   if (options.exec) return std::make_unique<PinUnit<pipeline::ExecSource>>(config, work, options)->run();
   return std::make_unique<PinUnit<pipeline::ReplaySource>>(config, work, options)->run();

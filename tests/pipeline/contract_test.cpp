@@ -16,18 +16,40 @@ using pipeline::EngineOptions;
 using pipeline::UnitConfig;
 using pipeline::UnitResult;
 
-constexpr Design kDesigns[] = {Design::None, Design::MaskLut, Design::Projection, Design::Comparators};
+/// A design over masks of some kind.
+struct Case {
+  Design design;
+  cull::MaskOptions masks = {};
+};
+constexpr cull::MaskOptions kCompressed{.entries = 64};
+constexpr Case kCases[] = {{Design::None},
+                           {Design::MaskLut},
+                           {Design::Dedup},
+                           {Design::Projection},
+                           {Design::Comparators},
+                           {Design::MaskLut, kCompressed},
+                           {Design::BitTable, kCompressed},
+                           {Design::Dedup, kCompressed},
+                           {Design::Projection, kCompressed},
+                           {Design::Comparators, kCompressed},
+                           {Design::Projection, {.resolution = 6, .ray_resolution = 13}},
+                           {Design::Comparators, {.resolution = 6, .ray_resolution = 6, .entries = 200}}};
 
-World& world_of(Design design) {
-  static std::map<Design, std::unique_ptr<World>> worlds;
-  auto& world = worlds[design];
-  if (!world) world = std::make_unique<World>("gen:hair-ball?strands=120", design, 500);
+std::string name_of(const Case& c) {
+  return std::string(cull::to_string(c.design)) + ", R " + std::to_string(c.masks.resolution) + ", R_ray " +
+         std::to_string(c.masks.ray_resolution) + ", " + std::to_string(c.masks.entries) + " entries";
+}
+
+World& world_of(const Case& c) {
+  static std::map<std::string, std::unique_ptr<World>> worlds;
+  auto& world = worlds[name_of(c)];
+  if (!world) world = std::make_unique<World>("gen:hair-ball?strands=120", c.design, 200, c.masks);
   return *world;
 }
 
 /// Units that differ in every parameter that time depends on.
 std::vector<UnitConfig> timing_configs(const World& world) {
-  std::vector<UnitConfig> configs(20, world.config());
+  std::vector<UnitConfig> configs(24, world.config());
   const auto set = [&](std::size_t i) -> UnitConfig& { return configs[i]; };
   set(1).unit.contexts = 1;
   set(2).unit.contexts = 256;
@@ -49,6 +71,7 @@ std::vector<UnitConfig> timing_configs(const World& world) {
   set(13).child_sort.latency = 1;
   set(13).mask_test.latency = 1;
   set(13).cell_locate.latency = 1;
+  set(13).mask_test.second_latency = 9;
   set(14).cell_locate.units = set(14).comparators.units = 4;
   set(14).mask_test.banks = 64;
   set(15).mask_test.banks = 1;
@@ -62,6 +85,14 @@ std::vector<UnitConfig> timing_configs(const World& world) {
   set(19).unit.contexts = 7;
   set(19).node_cache.bytes = 4096;
   set(19).scheduler.policy = pipeline::SchedulerPolicy::RoundRobin;
+  set(20).table_cache.bytes = 16384;
+  set(21).table_cache = {.bytes = 1024, .ways = 1, .hit_latency = 9, .ports = 2, .mshrs = 1};
+  set(21).stack = {.entries = 2, .push_width = 1, .spill_batch = 2};
+  set(22).table_cache = {.bytes = 2048, .ways = 4, .hit_latency = 1, .ports = 8, .mshrs = 64};
+  set(22).memory.line_bytes = 64;
+  set(22).mask_test.latency = 1;
+  set(23).mask_test.ports = 2;
+  set(23).mask_test.banks = 1;
   return configs;
 }
 
@@ -83,10 +114,10 @@ void expect_same_answers(const World& world, const Outcome& outcome, std::uint64
 }
 
 TEST(Contract, the_events_of_each_ray_are_those_the_reference_recorded) {
-  for (const Design design : kDesigns)
+  for (const Case& c : kCases)
     for (const bool exec : {false, true}) {
-      SCOPED_TRACE(std::string(cull::to_string(design)) + (exec ? ", exec" : ", replay"));
-      World& world = world_of(design);
+      SCOPED_TRACE(name_of(c) + (exec ? ", exec" : ", replay"));
+      World& world = world_of(c);
       const auto engine = world.engine(world.config(), {.exec = exec, .keep_events = true});
       const UnitResult result = pipeline::run_to_end(*engine);
       EXPECT_EQ(result.wrong_hits, 0u);
@@ -118,12 +149,12 @@ TEST(Contract, the_events_of_each_ray_are_those_the_reference_recorded) {
 }
 
 TEST(Contract, no_timing_changes_what_a_ray_visits_or_finds_and_exec_takes_the_cycles_of_replay) {
-  for (const Design design : kDesigns) {
-    World& world = world_of(design);
+  for (const Case& c : kCases) {
+    World& world = world_of(c);
     const std::uint64_t untimed_hash = run(world, world.config()).untimed_hash;
     int number = 0;
     for (const UnitConfig& config : timing_configs(world)) {
-      SCOPED_TRACE(std::string(cull::to_string(design)) + ", config " + std::to_string(number++));
+      SCOPED_TRACE(name_of(c) + ", config " + std::to_string(number++));
       const Outcome replay = run(world, config), exec = run(world, config, {.exec = true});
       expect_same_answers(world, replay, untimed_hash);
       expect_same_answers(world, exec, untimed_hash);
@@ -135,11 +166,11 @@ TEST(Contract, no_timing_changes_what_a_ray_visits_or_finds_and_exec_takes_the_c
 }
 
 TEST(Contract, the_order_of_the_stages_and_skipping_idle_cycles_change_no_cycle) {
-  for (const Design design : kDesigns) {
-    World& world = world_of(design);
+  for (const Case& c : kCases) {
+    World& world = world_of(c);
     int number = 0;
     for (const UnitConfig& config : timing_configs(world)) {
-      SCOPED_TRACE(std::string(cull::to_string(design)) + ", config " + std::to_string(number++));
+      SCOPED_TRACE(name_of(c) + ", config " + std::to_string(number++));
       const UnitResult forward = world.run(config);
       const UnitResult backward = world.run(config, {.skip_idle = false, .reverse_order = true});
       const UnitResult ticking = world.run(config, {.skip_idle = false});
@@ -158,14 +189,13 @@ TEST(Contract, the_order_of_the_stages_and_skipping_idle_cycles_change_no_cycle)
 }
 
 TEST(Contract, links_that_refuse_at_random_change_no_answer) {
-  for (const Design design : kDesigns) {
-    World& world = world_of(design);
+  for (const Case& c : kCases) {
+    World& world = world_of(c);
     const Outcome undisturbed = run(world, world.config());
     const auto configs = timing_configs(world);
     for (std::uint64_t i = 0; i < configs.size(); ++i) {
       const std::uint64_t seed = oracle::test_seed() + i;
-      SCOPED_TRACE(std::string(cull::to_string(design)) + ", config " + std::to_string(i) + ", stall seed " +
-                   std::to_string(seed));
+      SCOPED_TRACE(name_of(c) + ", config " + std::to_string(i) + ", stall seed " + std::to_string(seed));
       const Outcome outcome = run(world, configs[i], {.exec = i % 2 == 0, .backpressure = {.seed = seed}});
       expect_same_answers(world, outcome, undisturbed.untimed_hash);
       const Outcome backward = run(world, configs[i], {.reverse_order = true, .backpressure = {.seed = seed}});
@@ -185,7 +215,7 @@ TEST(Contract, exec_needs_no_recorded_steps) {
 }
 
 TEST(Contract, a_stack_of_one_entry_spills_and_comes_back_exactly) {
-  World& world = world_of(Design::None);
+  World& world = world_of({Design::None});
   UnitConfig config = world.config();
   config.stack = {.entries = 1, .push_width = 3, .spill_batch = 1};
   const Outcome small = run(world, config), large = run(world, world.config());
@@ -232,7 +262,7 @@ TEST(Contract, steps_of_another_walk_are_refused_with_ray_and_visit) {
 }
 
 TEST(Contract, a_design_other_than_the_tables_is_refused) {
-  World& world = world_of(Design::MaskLut);
+  World& world = world_of({Design::MaskLut});
   UnitConfig config = world.config();
   config.mask_test.design = Design::Projection;
   EXPECT_THROW(world.run(config), Error);
@@ -244,7 +274,7 @@ TEST(Contract, a_feed_without_rays_takes_no_cycle) {
 }
 
 TEST(Watchdog, a_stuck_link_is_found_and_named) {
-  World& world = world_of(Design::Projection);
+  World& world = world_of({Design::Projection});
   UnitConfig config = world.config();
   config.watchdog.cycles = 3000;
   const std::map<int, const char*> names = {{0, "ray_to_scheduler"}, {3, "scheduler_to_node"}, {6, "box_to_locate"},

@@ -241,29 +241,32 @@ LaneKeys keys_of(std::initializer_list<std::uint32_t> list) {
   return keys;
 }
 
+/// Cycles that the reads take in a unit with these banks and ports.
+int table_cycles(const cull::MaskTester& tester, int banks, int ports, const LaneKeys& keys) {
+  UnitConfig config;
+  config.mask_test.design = tester.design();
+  config.mask_test.banks = banks;
+  config.mask_test.ports = ports;
+  const cull::OnChipTables tables(tester, config.mask_test.rows, config.mask_test.projection_tables);
+  return TableBanks(config, tables).read(keys, Context{});
+}
+
 TEST(TableBanks, take_the_most_loaded_bank_over_its_ports) {
   const cull::MaskTester tester(Design::MaskLut, {});
-  const auto cycles = [&](int banks, int ports, const LaneKeys& keys) {
-    UnitConfig config;
-    config.mask_test.design = Design::MaskLut;
-    config.mask_test.banks = banks;
-    config.mask_test.ports = ports;
-    return TableBanks(config, tester).read(keys);
-  };
   const LaneKeys apart = keys_of({key_of(0), key_of(1), key_of(2), key_of(3)});  // rows 0, 1, 2, 3
-  EXPECT_EQ(cycles(4, 1, apart), 1);
-  EXPECT_EQ(cycles(2, 1, apart), 2);
-  EXPECT_EQ(cycles(1, 1, apart), 4);
-  EXPECT_EQ(cycles(1, 2, apart), 2);
-  EXPECT_EQ(cycles(1, 3, apart), 2);
-  EXPECT_EQ(cycles(1, 4, apart), 1);
+  EXPECT_EQ(table_cycles(tester, 4, 1, apart), 1);
+  EXPECT_EQ(table_cycles(tester, 2, 1, apart), 2);
+  EXPECT_EQ(table_cycles(tester, 1, 1, apart), 4);
+  EXPECT_EQ(table_cycles(tester, 1, 2, apart), 2);
+  EXPECT_EQ(table_cycles(tester, 1, 3, apart), 2);
+  EXPECT_EQ(table_cycles(tester, 1, 4, apart), 1);
   const LaneKeys one_bank = keys_of({key_of(0, 0), key_of(0, 1), key_of(0, 2)});  // rows 0, 64, 128
-  EXPECT_EQ(cycles(4, 1, one_bank), 3);
+  EXPECT_EQ(table_cycles(tester, 4, 1, one_bank), 3);
   const LaneKeys same_row = keys_of({key_of(2), key_of(2), key_of(2), key_of(2)});
-  EXPECT_EQ(cycles(1, 1, same_row), 1);
+  EXPECT_EQ(table_cycles(tester, 1, 1, same_row), 1);
   const LaneKeys uncertain = keys_of({key_of(0) | cull::CellKey::kUncertain, key_of(0, 1) | cull::CellKey::kUncertain});
-  EXPECT_EQ(cycles(1, 1, uncertain), 1);
-  EXPECT_EQ(cycles(1, 1, LaneKeys{}), 1);
+  EXPECT_EQ(table_cycles(tester, 1, 1, uncertain), 1);
+  EXPECT_EQ(table_cycles(tester, 1, 1, LaneKeys{}), 1);
 }
 
 TEST(TableBanks, read_a_single_projection_table_three_times_a_lane) {
@@ -272,16 +275,58 @@ TEST(TableBanks, read_a_single_projection_table_three_times_a_lane) {
   config.mask_test.design = Design::Projection;
   config.mask_test.banks = 1;
   // begin (1, 2, 3), end (0, 0, 0): three different rows of the one table.
-  const LaneKeys keys = keys_of({0x321});
-  config.mask_test.projection_tables = 1;
-  TableBanks one(config, tester);
-  EXPECT_EQ(one.read(keys), 3);
-  EXPECT_EQ(one.bits(), 256u * 16);
-  EXPECT_EQ(one.rows_used(), 3u);
-  config.mask_test.projection_tables = 3;
-  TableBanks three(config, tester);
-  EXPECT_EQ(three.read(keys), 1);
-  EXPECT_EQ(three.bits(), 3u * 256 * 16);
+  const LaneKeys keys = keys_of({0b00011'00010'00001});
+  const cull::OnChipTables single(tester, cull::TableRows::All, 1), three(tester, cull::TableRows::All, 3);
+  TableBanks one_memory(config, single), three_memories(config, three);
+  EXPECT_EQ(one_memory.read(keys, Context{}), 3);
+  ASSERT_EQ(one_memory.tables().size(), 1u);
+  EXPECT_EQ(one_memory.tables()[0].bits(), 256u * 16);
+  EXPECT_EQ(one_memory.usage(0).rows_used, 3u);
+  EXPECT_EQ(three_memories.read(keys, Context{}), 1);
+  ASSERT_EQ(three_memories.tables().size(), 3u);
+  for (std::size_t memory = 0; memory < 3; ++memory) EXPECT_EQ(three_memories.usage(memory).rows_used, 1u);
+}
+
+/// Keys of R_ray = 4 whose masks are all different, or all the same.
+LaneKeys keys_with_masks(const cull::DedupTable& table, int count, bool different) {
+  std::map<std::uint32_t, LaneKeys> of_mask;
+  LaneKeys chosen;
+  for (std::uint32_t number = 0; number < cull::key_count(4) && chosen.count < count; ++number) {
+    LaneKeys& keys = of_mask[table.id(number)];
+    if (keys.count == count) continue;
+    keys.key[keys.count++] = cull::numbered_key(number, 4).packed;
+    if (different && keys.count == 1) chosen.key[chosen.count++] = keys.key[0];
+    if (!different && keys.count == count) chosen = keys;
+  }
+  return chosen;
+}
+
+TEST(TableBanks, read_the_second_memory_of_dedup_after_the_first) {
+  const cull::MaskTester tester(Design::Dedup, {});
+  const auto lanes_of = [&](bool different) { return keys_with_masks(*tester.dedup_table(), 3, different); };
+  // Three keys take three turns at one bank of ids; three different masks then three more, less the one in which the
+  // last id comes; one mask in common is read once.
+  ASSERT_EQ(lanes_of(true).count, 3);
+  ASSERT_EQ(lanes_of(false).count, 3);
+  EXPECT_EQ(table_cycles(tester, 1, 1, lanes_of(true)), 5);
+  EXPECT_EQ(table_cycles(tester, 1, 1, lanes_of(false)), 3);
+  EXPECT_EQ(table_cycles(tester, 1, 2, lanes_of(true)), 3);
+  EXPECT_EQ(table_cycles(tester, 1, 4, lanes_of(true)), 1);
+}
+
+TEST(TableBanks, read_the_compression_lut_beside_the_ray_masks) {
+  const auto lut = std::make_shared<const cull::CompressionLut>(4, std::vector<std::uint64_t>{1, 3, 7, 15});
+  const cull::MaskTester tester(Design::MaskLut, {.entries = cull::kMinEntries}, lut);
+  LaneKeys lanes = keys_of({key_of(0), key_of(1), key_of(2), key_of(3)});
+  for (std::uint32_t i = 0; i < 4; ++i) lanes.mask_index[i] = i;
+  EXPECT_EQ(table_cycles(tester, 4, 1, lanes), 1);
+  for (std::uint32_t i = 0; i < 3; ++i) lanes.mask_index[i] = 4 * (i % 2);  // 0, 4, 0: one bank, two rows
+  lanes.count = 3;
+  EXPECT_EQ(table_cycles(tester, 4, 1, lanes), 2);
+  // Comparators have no key to read by, but their object masks are in the LUT all the same.
+  const cull::MaskTester comparators(Design::Comparators, {.entries = cull::kMinEntries}, lut);
+  EXPECT_EQ(table_cycles(comparators, 4, 1, lanes), 2);
+  EXPECT_EQ(table_cycles(cull::MaskTester(Design::Comparators, {}), 1, 1, lanes), 1);
 }
 
 TEST(Parameters, defaults_are_those_of_the_configuration_and_in_range) {
@@ -328,6 +373,8 @@ TEST(Parameters, combinations_that_cannot_be_are_refused_by_the_names_of_their_k
   };
   EXPECT_EQ(refused([](UnitConfig& c) { c.node_cache.bytes = 96 * 1024; }),
             "node_cache.bytes, node_cache.ways, memory.line_bytes");
+  EXPECT_EQ(refused([](UnitConfig& c) { c.table_cache.bytes = 4096 + 128; }),
+            "table_cache.bytes, table_cache.ways, memory.line_bytes");
   EXPECT_EQ(refused([](UnitConfig& c) { c.stack.entries = 4; }), "stack.spill_batch, stack.entries");
   EXPECT_EQ(refused([](UnitConfig& c) { c.memory.line_bytes = 32; }), "stack.spill_batch, memory.line_bytes");
   EXPECT_EQ(refused([](UnitConfig& c) { c.mask_test.banks = 3; }), "mask_test.banks");

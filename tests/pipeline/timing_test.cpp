@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "tests/pipeline/world.h"
 
@@ -33,6 +34,39 @@ Cycle fetch_time(const UnitConfig& c, const pipeline::CacheConfig& cache, Cycle 
          1 + 1;
 }
 
+/// Lines that one lane's test asks of tables in memory, round after round; each lies in a line of its own.
+std::vector<Cycle> table_lines(const World& world) {
+  const Cycle lut = world.tester().compression_lut() != nullptr ? 1 : 0;
+  switch (world.tester().design()) {
+    case Design::MaskLut:
+      return {1 + lut};
+    case Design::BitTable:
+      return {1};
+    case Design::Dedup:
+      return {1, 1};
+    case Design::Projection:
+      return {3 + lut};
+    default:
+      return {lut};
+  }
+}
+
+/// Cycles between the box test and the sort, for a node of which one lane is asked.
+Cycle mask_time(const World& world, const UnitConfig& c, bool miss) {
+  const auto n = [](int cycles) { return static_cast<Cycle>(cycles); };
+  const Design design = c.mask_test.design;
+  if (design == Design::None) return 0;
+  const Cycle hop = 1;
+  Cycle time = hop + n(design == Design::Comparators ? c.comparators.latency : c.cell_locate.latency);
+  const bool cached = c.table_cache.bytes > 0 && table_lines(world).front() > 0;
+  if (cached) {
+    time += hop;
+    for (const Cycle lines : table_lines(world)) time += fetch_time(c, c.table_cache, lines, miss);
+  }
+  time += hop + n(c.mask_test.latency);
+  return time + (design == Design::Dedup && !cached ? n(c.mask_test.second_latency) : 0);
+}
+
 /// From the cycle in which a lonely ray takes its context to the cycle in which it is returned, for a root with one
 /// leaf.
 Cycle lonely_latency(const World& world, const UnitConfig& c, int triangles, bool miss) {
@@ -43,15 +77,10 @@ Cycle lonely_latency(const World& world, const UnitConfig& c, int triangles, boo
       lines_of(image.triangle_address(0), static_cast<std::uint64_t>(triangles) * image.triangle_stride_bytes,
                c.memory.line_bytes);
   const auto n = [](int cycles) { return static_cast<Cycle>(cycles); };
-  Cycle mask_time = 0;
-  if (c.mask_test.design == Design::Comparators)
-    mask_time = hop + n(c.comparators.latency) + hop + n(c.mask_test.latency);
-  else if (c.mask_test.design != Design::None)
-    mask_time = hop + n(c.cell_locate.latency) + hop + n(c.mask_test.latency);
   const Cycle scheduling = hop + 1;
   Cycle time = n(c.ray_setup.interval - 1 + c.ray_setup.latency);
   time += scheduling + hop + fetch_time(c, c.node_cache, node_lines, miss);
-  time += hop + n(c.box_test.latency) + mask_time + hop + n(c.child_sort.latency);
+  time += hop + n(c.box_test.latency) + mask_time(world, c, miss) + hop + n(c.child_sort.latency);
   time += hop + 1;  // the stack forwards the nearest child
   time += scheduling + hop + fetch_time(c, c.leaf_cache, leaf_lines, miss);
   time += hop + n(triangles * c.triangle_test.interval - 1 + c.triangle_test.latency);
@@ -61,7 +90,7 @@ Cycle lonely_latency(const World& world, const UnitConfig& c, int triangles, boo
 }
 
 std::vector<UnitConfig> single_ray_configs(const World& world) {
-  std::vector<UnitConfig> configs(6, ideal(world.config()));
+  std::vector<UnitConfig> configs(8, ideal(world.config()));
   configs[1].memory.line_bytes = 64;
   configs[1].box_test.latency = 1;
   configs[1].child_sort.latency = 7;
@@ -75,29 +104,127 @@ std::vector<UnitConfig> single_ray_configs(const World& world) {
   configs[4].cell_locate.latency = 1;
   configs[4].comparators.latency = 31;
   configs[4].mask_test.latency = 5;
+  configs[4].mask_test.second_latency = 6;
   configs[5].node_cache.ports = 2;
   configs[5].node_cache.hit_latency = 20;
   configs[5].leaf_cache.hit_latency = 1;
   configs[5].memory.line_bytes = 64;
+  configs[6].table_cache = {.bytes = 8192, .hit_latency = 7, .ports = 1};
+  configs[7].table_cache = {.bytes = 8192, .hit_latency = 1, .ports = 2};
+  configs[7].memory.line_bytes = 64;
+  configs[7].memory.interval = 23;
+  configs[7].mask_test.second_latency = 8;
   for (UnitConfig& config : configs) config.unit.contexts = 1;
   return configs;
 }
 
 TEST(Timing, a_lonely_ray_takes_exactly_the_sum_of_its_latencies_cold_and_warm) {
-  for (const Design design : {Design::None, Design::MaskLut, Design::Projection, Design::Comparators})
+  constexpr cull::MaskOptions kPlain{}, kCompressed{.entries = 16};
+  const std::pair<Design, cull::MaskOptions> cases[] = {{Design::None, kPlain},
+                                                        {Design::MaskLut, kPlain},
+                                                        {Design::Dedup, kPlain},
+                                                        {Design::Projection, kPlain},
+                                                        {Design::Comparators, kPlain},
+                                                        {Design::MaskLut, kCompressed},
+                                                        {Design::BitTable, kCompressed},
+                                                        {Design::Dedup, kCompressed},
+                                                        {Design::Projection, kCompressed},
+                                                        {Design::Comparators, kCompressed}};
+  for (const auto& [design, options] : cases)
     for (const int triangles : {1, 5}) {
       // Two equal rays and one context: the second starts when the first is gone, with warm caches.
-      World world(stacked_leaves(1, triangles), design, {ray_through_leaves(), ray_through_leaves()});
+      World world(stacked_leaves(1, triangles), design, {ray_through_leaves(), ray_through_leaves()}, options);
       int number = 0;
       for (const UnitConfig& config : single_ray_configs(world))
         for (const bool exec : {false, true}) {
-          SCOPED_TRACE(std::string(cull::to_string(design)) + ", config " + std::to_string(number++ / 2));
+          SCOPED_TRACE(std::string(cull::to_string(design)) + ", " + std::to_string(options.entries) +
+                       " entries, config " + std::to_string(number++ / 2));
           const UnitResult result = world.run(config, {.exec = exec});
           EXPECT_EQ(result.ray_latency_sum,
                     lonely_latency(world, config, triangles, true) + lonely_latency(world, config, triangles, false));
           EXPECT_EQ(result.wrong_hits, 0u);
+          EXPECT_EQ(result.counts.uncertain, 0u);
         }
     }
+}
+
+TEST(Timing, lanes_with_full_masks_pass_unasked_and_take_no_turn_anywhere) {
+  for (const Design design : {Design::MaskLut, Design::Dedup, Design::Projection, Design::Comparators})
+    for (const int table_cache_bytes : {0, 4096}) {
+      SCOPED_TRACE(cull::to_string(design));
+      World world(filled_leaves(4), design, {ray_through_leaves()});
+      UnitConfig config = ideal(world.config());
+      config.table_cache.bytes = table_cache_bytes;
+      const UnitResult result = world.run(config);
+      EXPECT_EQ(counter(result, "mask_test.lanes_unasked"), 4u);
+      EXPECT_EQ(counter(result, "cell_locate.lanes"), 0u);
+      EXPECT_EQ(counter(result, "mask_test.reads"), 0u);
+      EXPECT_EQ(result.counts.box_hits, 4u);
+      EXPECT_EQ(result.counts.culled + result.counts.uncertain, 0u);
+      // Four lanes take the time of none, however few units locate: a unit for each makes no difference.
+      config.cell_locate.units = config.comparators.units = 4;
+      EXPECT_EQ(world.run(config).cycles, result.cycles);
+      EXPECT_EQ(world.run(config, {.exec = true}).cycles, result.cycles);
+      if (table_cache_bytes == 0) continue;
+      // Nothing to fetch: table_fetch hands the node on in the cycle behind the one in which it takes it.
+      config.table_cache.bytes = 0;
+      const Cycle second_read = design == Design::Dedup ? static_cast<Cycle>(config.mask_test.second_latency) : 0;
+      const bool fetches = cull::reads_tables(design);
+      if (fetches) {
+        EXPECT_EQ(counter(result, "table_fetch.lookups"), 0u);
+      }
+      EXPECT_EQ(world.run(config).cycles + (fetches ? 2 : 0), result.cycles + second_read);
+    }
+}
+
+/// Rows that the recorded rays read of a table that is read by key alone, and the lanes whose masks are full.
+struct KeysRead {
+  std::set<std::uint32_t> numbers;
+  std::uint64_t unasked = 0;
+};
+KeysRead keys_read(const World& world) {
+  KeysRead read;
+  for (const auto& block : world.blocks()) {
+    std::size_t next_key = 0;
+    for (const reference::Step& step : block->steps.steps)
+      for (int lane = 0; lane < intersect::kLanes && !step.is_leaf(); ++lane) {
+        if ((step.box_hits() >> lane & 1) == 0) continue;
+        const cull::CellKey key{block->steps.keys[next_key++]};
+        std::uint64_t mask = 0;
+        accel::read_mask(world.image(), step.ref, lane, &mask);
+        if (mask == ~std::uint64_t{0})
+          ++read.unasked;
+        else if (!key.uncertain())
+          read.numbers.insert(cull::key_number(key, world.tester().options().ray_resolution));
+      }
+  }
+  return read;
+}
+
+TEST(Timing, a_table_cache_that_holds_all_lines_misses_each_once_and_a_small_one_costs_cycles) {
+  World world("gen:hair-ball?strands=120", Design::MaskLut, 300, {.ray_resolution = 5});
+  const KeysRead read = keys_read(world);
+  std::set<std::uint32_t> lines;
+  for (const std::uint32_t number : read.numbers) lines.insert(number / 16);  // rows of 8 bytes, lines of 128
+  UnitConfig config = world.config();
+  config.table_cache.bytes = 1 << 18;
+  const UnitResult large = world.run(config);
+  EXPECT_EQ(counter(large, "mask_test.rows_used"), read.numbers.size());
+  EXPECT_EQ(counter(large, "mask_test.lanes_unasked"), read.unasked);
+  EXPECT_EQ(counter(large, "table_fetch.fills"), lines.size());
+  EXPECT_EQ(counter(large, "table_fetch.evictions"), 0u);
+  EXPECT_EQ(counter(large, "memory.table_requests"), lines.size());
+  EXPECT_EQ(counter(large, "table_fetch.lookups"),
+            counter(large, "table_fetch.hits") + counter(large, "table_fetch.merges") + lines.size());
+  EXPECT_EQ(counter(large, "mask_test.on_chip_bits"), 8u << 18);
+  EXPECT_EQ(counter(large, "mask_test.table_bits"), 64u * 15625);
+
+  config.table_cache.bytes = 512;
+  const UnitResult small = world.run(config);
+  EXPECT_EQ(counter(small, "table_fetch.lookups"), counter(large, "table_fetch.lookups"));
+  EXPECT_GT(counter(small, "table_fetch.evictions"), 0u);
+  EXPECT_GT(counter(small, "memory.table_requests"), lines.size());
+  EXPECT_GT(small.cycles, large.cycles);
 }
 
 TEST(Timing, a_ray_that_the_unit_does_not_accept_takes_its_set_up_and_two_hops) {
@@ -174,7 +301,7 @@ TEST(Timing, latency_sum_equals_the_occupied_contexts_summed_over_cycles) {
 }
 
 TEST(Timing, every_cycle_of_every_stage_and_of_every_ray_is_accounted_for) {
-  for (const Design design : {Design::None, Design::MaskLut, Design::Projection, Design::Comparators}) {
+  for (const Design design : {Design::None, Design::MaskLut, Design::Dedup, Design::Projection, Design::Comparators}) {
     World world("gen:foliage?twigs=10", design, 400);
     for (const bool small : {false, true}) {
       UnitConfig config = world.config();
@@ -183,9 +310,11 @@ TEST(Timing, every_cycle_of_every_stage_and_of_every_ray_is_accounted_for) {
         config.node_cache.mshrs = config.leaf_cache.mshrs = 2;
         config.stack = {.entries = 2, .push_width = 1, .spill_batch = 2};
         config.mask_test.banks = 1;
+        config.table_cache = {.bytes = 1024, .ways = 2, .mshrs = 1};
       }
       const UnitResult result = world.run(config);
-      EXPECT_EQ(result.stages.size(), design == Design::None ? 11u : 13u);
+      const bool reads_tables = cull::reads_tables(design);
+      EXPECT_EQ(result.stages.size(), design == Design::None ? 11u : small && reads_tables ? 14u : 13u);
       for (const auto& stage : result.stages) {
         std::uint64_t cycles = stage.busy + stage.idle;
         for (const auto& cause : stage.stalled) cycles += cause.cycles;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "model/accel/build.h"
+#include "model/cull/compress.h"
 #include "model/cull/object_masks.h"
 #include "model/pipeline/backpressure.h"
 #include "model/reference/traversal.h"
@@ -45,7 +46,18 @@ std::vector<intersect::Ray> lines_through(const accel::Bvh4& tree, int count) {
   return rays;
 }
 
-constexpr cull::MaskOptions kMaskOptions{};
+cull::ObjectMasks masks_of(const accel::Bvh4& tree, cull::Design design, const cull::MaskOptions& options) {
+  return design == cull::Design::None ? cull::ObjectMasks{} : cull::build_object_masks(tree, options, 1);
+}
+
+/// Replaces the masks where they are to be compressed.
+std::shared_ptr<const cull::CompressionLut> compress_masks(const accel::Bvh4& tree, const cull::MaskOptions& options,
+                                                           cull::ObjectMasks& masks) {
+  if (options.entries == 0 || masks.bits.empty()) return nullptr;
+  cull::CompressedMasks compressed = cull::compress(tree, masks, options, 1);
+  masks = std::move(compressed.masks);
+  return std::make_shared<const cull::CompressionLut>(std::move(compressed.lut));
+}
 
 }  // namespace
 
@@ -55,24 +67,30 @@ std::uint64_t VectorFeed::total_rays() const {
   return rays;
 }
 
-World::World(const std::string& scene, cull::Design design, int rays)
-    : tree_(accel::build(scene::load(scene).mesh, {})), tester_(design, kMaskOptions) {
+World::World(const std::string& scene, cull::Design design, int rays, const cull::MaskOptions& options)
+    : World(accel::build(scene::load(scene).mesh, {}), design, {}, options) {
   record(lines_through(tree_, rays));
 }
 
-World::World(accel::Bvh4 tree, cull::Design design, const std::vector<intersect::Ray>& rays)
-    : tree_(std::move(tree)), tester_(design, kMaskOptions) {
+World::World(accel::Bvh4 tree, cull::Design design, const std::vector<intersect::Ray>& rays,
+             const cull::MaskOptions& options)
+    : tree_(std::move(tree)),
+      masks_(masks_of(tree_, design, options)),
+      lut_(compress_masks(tree_, options, masks_)),
+      tester_(design, options, lut_),
+      image_(make_image()) {
   record(rays);
 }
 
-void World::record(const std::vector<intersect::Ray>& rays) {
-  accel::ImageLayout layout;
-  if (tester_.design() != cull::Design::None) {
-    masks_ = cull::build_object_masks(tree_, kMaskOptions, 1);
-    layout.mask_bits = 64;
-  }
-  image_ = accel::make_image(tree_, masks_.bits.empty() ? nullptr : masks_.bits.data(), masks_.words, layout);
+accel::Image World::make_image() const {
+  if (masks_.bits.empty()) return accel::make_image(tree_, nullptr, 0, {});
+  const auto r = static_cast<std::uint32_t>(masks_.resolution);
+  if (lut_ == nullptr) return accel::make_image(tree_, masks_.bits.data(), masks_.words, {.mask_bits = r * r * r});
+  const std::vector<std::uint64_t> indices(masks_.index.begin(), masks_.index.end());
+  return accel::make_image(tree_, indices.data(), 1, {.mask_bits = static_cast<std::uint32_t>(lut_->index_bits())});
+}
 
+void World::record(const std::vector<intersect::Ray>& rays) {
   const reference::Traversal culled(tree_, &masks_, tester_);
   for (std::size_t first = 0; first < rays.size(); first += kRaysPerBlock) {
     auto block = std::make_shared<reference::RayBlock>();
@@ -117,7 +135,10 @@ reference::Counts World::counts() const {
   return counts;
 }
 
-accel::Bvh4 stacked_leaves(int lanes, int triangles) {
+namespace {
+
+/// A root of `lanes` leaves, each over the box [0, 4]^3 and with these triangles.
+accel::Bvh4 equal_leaves(int lanes, const std::vector<accel::LeafTriangle>& triangles) {
   accel::Bvh4 tree;
   tree.lower = {0, 0, 0};
   tree.upper = {4, 4, 4};
@@ -131,20 +152,40 @@ accel::Bvh4 stacked_leaves(int lanes, int triangles) {
     }
     root.child[lane] = accel::kEmptyChild;
     if (!there) continue;
-    root.child[lane] = accel::make_leaf(static_cast<std::uint32_t>(tree.triangles.size()), triangles);
-    for (int i = 0; i < triangles; ++i) {
-      const auto id = static_cast<std::uint32_t>(tree.triangles.size());
-      const float z = 0.5f + static_cast<float>(i) * 0.125f;
-      tree.triangles.push_back({{0, 0, z}, {4, 0, z}, {0, 4, z}, id});
+    root.child[lane] =
+        accel::make_leaf(static_cast<std::uint32_t>(tree.triangles.size()), static_cast<int>(triangles.size()));
+    for (accel::LeafTriangle triangle : triangles) {
+      triangle.primitive = static_cast<std::uint32_t>(tree.triangles.size());
+      tree.triangles.push_back(triangle);
     }
   }
   tree.nodes.push_back(root);
   return tree;
 }
 
+}  // namespace
+
+accel::Bvh4 stacked_leaves(int lanes, int triangles) {
+  std::vector<accel::LeafTriangle> leaf;
+  for (int i = 0; i < triangles; ++i) {
+    const float z = 0.5f + static_cast<float>(i) * 0.125f;
+    leaf.push_back({{0, 0, z}, {4, 0, z}, {0, 4, z}, 0});
+  }
+  return equal_leaves(lanes, leaf);
+}
+
+accel::Bvh4 filled_leaves(int lanes) {
+  std::vector<accel::LeafTriangle> leaf;
+  for (const float z : {0.5f, 1.5f, 2.5f, 3.5f}) {
+    leaf.push_back({{0, 0, z}, {4, 0, z}, {0, 4, z}, 0});
+    leaf.push_back({{4, 4, z}, {4, 0, z}, {0, 4, z}, 0});
+  }
+  return equal_leaves(lanes, leaf);
+}
+
 intersect::Ray ray_through_leaves() {
   intersect::Ray ray;
-  ray.origin = {1, 1, -1};
+  ray.origin = {1.5f, 1.5f, -1};
   ray.direction = {0, 0, 1};
   ray.tmax = 100;
   return ray;

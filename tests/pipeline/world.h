@@ -30,8 +30,9 @@ class VectorFeed : public reference::RayFeed {
 class World {
  public:
   /// `rays` lines through the scene: three in four closest-hit, one in four any-hit, one in 50 invalid.
-  World(const std::string& scene, cull::Design design, int rays);
-  World(accel::Bvh4 tree, cull::Design design, const std::vector<intersect::Ray>& rays);
+  World(const std::string& scene, cull::Design design, int rays, const cull::MaskOptions& options = {});
+  World(accel::Bvh4 tree, cull::Design design, const std::vector<intersect::Ray>& rays,
+        const cull::MaskOptions& options = {});
 
   pipeline::UnitConfig config() const;  ///< defaults with the world's design
   std::unique_ptr<pipeline::Engine> engine(const pipeline::UnitConfig& config, const pipeline::EngineOptions& options);
@@ -46,11 +47,13 @@ class World {
   void forget_steps();
 
  private:
+  accel::Image make_image() const;
   void record(const std::vector<intersect::Ray>& rays);
 
   accel::Bvh4 tree_;
-  cull::MaskTester tester_;
   cull::ObjectMasks masks_;
+  std::shared_ptr<const cull::CompressionLut> lut_;
+  cull::MaskTester tester_;
   accel::Image image_;
   std::vector<std::shared_ptr<const reference::RayBlock>> blocks_;
   std::vector<std::unique_ptr<VectorFeed>> feeds_;
@@ -60,7 +63,9 @@ class World {
 /// A root with `lanes` leaves, all at the same place, and `triangles` of one leaf: a ray along +z from below meets them
 /// all.
 accel::Bvh4 stacked_leaves(int lanes, int triangles);
-/// A ray that meets every box and triangle of stacked_leaves().
+/// The same with leaves whose object masks are full.
+accel::Bvh4 filled_leaves(int lanes);
+/// A ray that meets every box and triangle of both.
 intersect::Ray ray_through_leaves();
 
 std::uint64_t counter(const pipeline::UnitResult& result, const std::string& name);

@@ -42,7 +42,7 @@ void expect_equal(const pipeline::UnitResult& a, const pipeline::UnitResult& b) 
 }
 
 std::vector<pipeline::UnitConfig> configs_of(const World& world) {
-  std::vector<pipeline::UnitConfig> configs(3, world.config());
+  std::vector<pipeline::UnitConfig> configs(4, world.config());
   configs[1].unit.contexts = 5;
   configs[1].unit.batch_cycles = 7;
   configs[1].memory.model = pipeline::MemoryModel::Ideal;
@@ -51,12 +51,14 @@ std::vector<pipeline::UnitConfig> configs_of(const World& world) {
   configs[2].unit.batch_cycles = 1;
   configs[2].node_cache.bytes = 2048;
   configs[2].mask_test.banks = 1;
+  configs[3].table_cache = {.bytes = 2048, .ways = 2, .hit_latency = 4, .ports = 1, .mshrs = 3};
   return configs;
 }
 
 TEST(Modes, all_end_on_the_same_cycle_with_the_same_events_and_accounts) {
-  for (const Design design : {Design::None, Design::MaskLut, Design::Projection, Design::Comparators}) {
-    const World world("gen:hair-ball?strands=80", design, 200);
+  for (const Design design :
+       {Design::None, Design::MaskLut, Design::BitTable, Design::Dedup, Design::Projection, Design::Comparators}) {
+    const World world("gen:hair-ball?strands=80", design, 150, {.entries = design == Design::BitTable ? 32 : 0});
     for (const auto& config : configs_of(world))
       for (const auto source : {unit::Source::Replay, unit::Source::Exec})
         for (const std::uint64_t stall_seed : {0, 77}) {
