@@ -87,12 +87,14 @@ std::vector<UnitConfig> timing_configs(const World& world) {
   set(19).scheduler.policy = pipeline::SchedulerPolicy::RoundRobin;
   set(20).table_cache.bytes = 16384;
   set(21).table_cache = {.bytes = 1024, .ways = 1, .hit_latency = 9, .ports = 2, .mshrs = 1};
+  set(21).mask_test.rows = cull::TableRows::Folded;
   set(21).stack = {.entries = 2, .push_width = 1, .spill_batch = 2};
   set(22).table_cache = {.bytes = 2048, .ways = 4, .hit_latency = 1, .ports = 8, .mshrs = 64};
   set(22).memory.line_bytes = 64;
   set(22).mask_test.latency = 1;
   set(23).mask_test.ports = 2;
   set(23).mask_test.banks = 1;
+  set(23).mask_test.rows = cull::TableRows::Folded;
   return configs;
 }
 
@@ -266,6 +268,64 @@ TEST(Contract, a_design_other_than_the_tables_is_refused) {
   UnitConfig config = world.config();
   config.mask_test.design = Design::Projection;
   EXPECT_THROW(world.run(config), Error);
+}
+
+/// Rays of the world whose origins lie outside the whole scene.
+std::vector<intersect::Ray> rays_from_outside(const World& world) {
+  std::vector<intersect::Ray> outside;
+  for (const auto& block : world.blocks())
+    for (const intersect::Ray& ray : block->rays) {
+      bool away = false;
+      for (int axis = 0; axis < 3; ++axis)
+        away |= ray.origin[axis] < world.tree().lower[axis] || ray.origin[axis] > world.tree().upper[axis];
+      if (away) outside.push_back(ray);
+    }
+  return outside;
+}
+
+TEST(Contract, rows_for_rays_from_outside_are_enough_for_those) {
+  for (const Case& c : kCases) {
+    if (!cull::reads_tables(c.design)) continue;
+    SCOPED_TRACE(name_of(c));
+    World& world = world_of(c);
+    World outside(world.tree(), c.design, rays_from_outside(world), c.masks);
+    ASSERT_GT(outside.rays(), 50u);
+    UnitConfig config = outside.config();
+    const Outcome all = run(outside, config);
+    config.mask_test.rows = cull::TableRows::Reachable;
+    for (const int table_cache_bytes : {0, 4096}) {
+      config.table_cache.bytes = table_cache_bytes;
+      const Outcome reachable = run(outside, config), exec = run(outside, config, {.exec = true});
+      expect_same_answers(outside, reachable, all.untimed_hash);
+      expect_same_answers(outside, exec, all.untimed_hash);
+      EXPECT_EQ(exec.result.cycles, reachable.result.cycles);
+    }
+  }
+}
+
+TEST(Contract, a_ray_without_a_row_is_refused_with_its_number_resident_or_cached_replayed_or_computed) {
+  // Begins and ends in inner cells of the box of 4^3 cells: no ray from outside does, in either direction.
+  intersect::Ray inside = ray_through_leaves();
+  inside.origin[2] = 1.5f;
+  inside.tmax = 1;
+  for (const Design design : {Design::MaskLut, Design::BitTable, Design::Dedup})
+    for (const int table_cache_bytes : {0, 4096})
+      for (const bool exec : {false, true}) {
+        SCOPED_TRACE(cull::to_string(design));
+        World world(stacked_leaves(1, 1), design, {ray_through_leaves(), inside}, kCompressed);
+        UnitConfig config = world.config();
+        config.table_cache.bytes = table_cache_bytes;
+        config.mask_test.rows = cull::TableRows::Folded;
+        EXPECT_EQ(world.run(config, {.exec = exec}).wrong_hits, 0u);
+        config.mask_test.rows = cull::TableRows::Reachable;
+        try {
+          world.run(config, {.exec = exec});
+          FAIL() << "answered";
+        } catch (const Error& error) {
+          EXPECT_EQ(error.where(), "ray 1, visit 0");
+          EXPECT_NE(error.remedy().find("mask_test.rows = folded"), std::string::npos);
+        }
+      }
 }
 
 TEST(Contract, a_feed_without_rays_takes_no_cycle) {

@@ -38,6 +38,7 @@ class World {
   std::unique_ptr<pipeline::Engine> engine(const pipeline::UnitConfig& config, const pipeline::EngineOptions& options);
   pipeline::UnitResult run(const pipeline::UnitConfig& config, const pipeline::EngineOptions& options = {});
 
+  const accel::Bvh4& tree() const { return tree_; }
   const accel::Image& image() const { return image_; }
   const cull::MaskTester& tester() const { return tester_; }
   const std::vector<std::shared_ptr<const reference::RayBlock>>& blocks() const { return blocks_; }
