@@ -35,6 +35,11 @@ void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
   app.add_option("--r-ray", args.ray_resolution, "R_ray: cells per axis of the ray's key; 0: as --r")
       ->capture_default_str();
   app.add_option("--l", args.levels, "L: levels below from which masks are made, 1..5 or inf")->capture_default_str();
+  app.add_option("--compress", args.compress,
+                 "entries of a compression LUT that replaces object masks by indices, 16..4096; without it they are "
+                 "stored as they are");
+  app.add_option("--selection", args.selection,
+                 "how its entries are chosen: top-per-node and top-summed (the paper's), refined (the default)");
   app.add_option("--leaf", args.leaf_triangles, "triangles in a leaf, at most")->capture_default_str();
   app.add_option("--triangle-cost", args.triangle_cost,
                  "cost of a triangle test in the builder, relative to a test of 4 boxes")
@@ -68,7 +73,16 @@ void add_record(CLI::App& app, Parsed& parsed) {
   auto* command = app.add_subcommand("record", "build the tree and its masks, record the rays of a scene");
   add_scene_options(*command, parsed.record.scene, false);
   command->add_option("-o,--output", parsed.record.output, "trace file to write (.ctut)")->required();
-  command->add_option("--designs", parsed.record.designs, "whose event sequences to store; others are derived at a run")
+  command->add_option("--designs", parsed.record.designs,
+                      "whose event sequences to store, others are derived at a run; without it "
+                      "none,mask-lut,comparators, or none when culling is off");
+  command->add_option("--culling", parsed.record.culling, "off: nodes carry no masks, only design none is recorded")
+      ->capture_default_str();
+  command->add_option("--node-align", parsed.record.node_alignment_bytes, "bytes that a node starts at a multiple of")
+      ->capture_default_str();
+  command
+      ->add_option("--triangle-align", parsed.record.triangle_alignment_bytes,
+                   "bytes that a triangle starts at a multiple of")
       ->capture_default_str();
   command->callback([&] { parsed.exit_code = record_command(parsed.record); });
 }

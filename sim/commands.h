@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct SceneArgs {
   int resolution = 4;
   int ray_resolution = 0;  ///< 0: as resolution
   std::string levels = "inf";
+  std::optional<int> compress;  ///< entries of the compression LUT; none: masks are not compressed
+  std::string selection;        ///< of these entries; empty: MaskOptions' own
   int leaf_triangles = 4;
   double triangle_cost = 1;  ///< of a triangle test in the builder's SAH, relative to a 4-wide box test
   int threads = 0;           ///< 0: all
@@ -33,7 +36,9 @@ struct SceneArgs {
 struct RecordArgs {
   SceneArgs scene;
   std::string output;
-  std::string designs = "none,mask-lut,comparators";
+  std::string designs;         ///< empty: none,mask-lut,comparators, or none when culling is off
+  std::string culling = "on";  ///< or "off": nodes carry no masks
+  std::uint32_t node_alignment_bytes = 4, triangle_alignment_bytes = 4;
 };
 
 /// Which unit: shared by every command that runs it.

@@ -2,6 +2,7 @@
 
 #include "model/accel/build.h"
 #include "sim/stopwatch.h"
+#include "traces/mask_set.h"
 
 namespace ctu::sim {
 
@@ -15,16 +16,16 @@ CullingSurvey survey_culling(const scene::Scene& scene, const traces::RecordOpti
   const accel::Bvh4 bvh = accel::build(scene.mesh, options.build);
   survey.build_seconds = build_watch.seconds();
   const Stopwatch mask_watch;
-  const cull::ObjectMasks masks = cull::build_object_masks(bvh, options.masks, options.threads);
+  const traces::MaskSet set = traces::make_masks(bvh, options.masks, options.threads);
   survey.mask_seconds = mask_watch.seconds();
 
   survey.designs.push_back(Design::None);
   for (const Design design : designs)
     if (design != Design::None) survey.designs.push_back(design);
   std::vector<cull::MaskTester> testers;
-  for (const Design design : survey.designs) testers.emplace_back(design, options.masks);
+  for (const Design design : survey.designs) testers.emplace_back(design, options.masks, set.lut);
   std::vector<Contender> contenders;
-  for (const cull::MaskTester& tester : testers) contenders.push_back({&tester, &masks});
+  for (const cull::MaskTester& tester : testers) contenders.push_back({&tester, &set.masks});
 
   const Stopwatch trace_watch;
   survey.rays = survey_rays(scene, bvh, contenders, {.rays = options.rays, .threads = options.threads}, progress);

@@ -8,11 +8,11 @@
 #include "model/base/error.h"
 #include "model/base/parallel.h"
 #include "model/cull/mask_test.h"
-#include "model/cull/object_masks.h"
 #include "model/reference/traversal.h"
 #include "sim/commands.h"
 #include "sim/png_image.h"
 #include "sim/scene_args.h"
+#include "traces/mask_set.h"
 #include "traces/ray_generator.h"
 
 namespace ctu::sim {
@@ -76,11 +76,11 @@ int heatmap_command(const HeatmapArgs& args) {
 
   const scene::Scene scene = load_scene(scene_args, scene_args.scenes.front());
   const accel::Bvh4 bvh = accel::build(scene.mesh, options.build);
-  const cull::ObjectMasks masks = cull::build_object_masks(bvh, options.masks, options.threads);
+  const traces::MaskSet set = traces::make_masks(bvh, options.masks, options.threads);
   const traces::RayGenerator generator(scene, options.rays);
-  const cull::MaskTester none(Design::None, options.masks), culling(designs.front(), options.masks);
+  const cull::MaskTester none(Design::None, options.masks), culling(designs.front(), options.masks, set.lut);
   const auto without = count_pixels(generator, reference::Traversal(bvh, nullptr, none), options.threads);
-  const auto with = count_pixels(generator, reference::Traversal(bvh, &masks, culling), options.threads);
+  const auto with = count_pixels(generator, reference::Traversal(bvh, &set.masks, culling), options.threads);
 
   const double range = args.range != 0 ? args.range : bright_end(without);
   draw(without, with, static_cast<int>(options.rays.width), static_cast<int>(options.rays.height), range)

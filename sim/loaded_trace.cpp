@@ -11,13 +11,19 @@ namespace ctu::sim {
 LoadedTrace::LoadedTrace(const std::string& path) : reader_(path) {
   const accel::Image image = reader_.read_image();
   bvh_ = accel::decode(image);
-  masks_ = traces::masks_of(image, reader_.manifest().masks);
+  set_.lut = reader_.compression();
+  set_.masks = traces::masks_of(image, mask_options(), set_.lut.get());
+}
+
+cull::MaskTester LoadedTrace::tester(cull::Design design) const {
+  if (design != cull::Design::None && set_.masks.bits.empty())
+    throw Error(reader_.path(), fmt::format("carries no masks, and {} asks them", to_string(design)),
+                "run it with mask_test.design=none, or record it with --culling on");
+  return cull::MaskTester(design, mask_options(), set_.lut);
 }
 
 accel::Image LoadedTrace::unit_image(cull::Design design) const {
-  accel::ImageLayout layout = reader_.manifest().image.shape.layout;
-  if (design == cull::Design::None) layout.mask_bits = 0;
-  return accel::make_image(bvh_, masks_.bits.data(), masks_.words, layout);
+  return traces::image_of(bvh_, design == cull::Design::None ? nullptr : &set_, reader_.manifest().image.shape.layout);
 }
 
 traces::RayRange LoadedTrace::range(std::uint64_t first, std::uint64_t count) const {

@@ -6,8 +6,9 @@
 
 #include "model/accel/bvh4.h"
 #include "model/accel/image.h"
-#include "model/cull/object_masks.h"
+#include "model/cull/mask_test.h"
 #include "model/cull/options.h"
+#include "traces/mask_set.h"
 #include "traces/trace_feed.h"
 #include "traces/trace_reader.h"
 
@@ -20,8 +21,11 @@ class LoadedTrace {
 
   const traces::TraceReader& reader() const { return reader_; }
   const accel::Bvh4& bvh() const { return bvh_; }
-  const cull::ObjectMasks& masks() const { return masks_; }
+  const cull::ObjectMasks& masks() const { return set_.masks; }
   const cull::MaskOptions& mask_options() const { return reader_.manifest().masks; }
+
+  /// The test over the masks of this trace. Error when it has none and the design asks them.
+  cull::MaskTester tester(cull::Design design) const;
 
   /// Nodes carry masks only when the design asks them.
   accel::Image unit_image(cull::Design design) const;
@@ -32,7 +36,7 @@ class LoadedTrace {
  private:
   traces::TraceReader reader_;
   accel::Bvh4 bvh_;
-  cull::ObjectMasks masks_;
+  traces::MaskSet set_;
 };
 
 }  // namespace ctu::sim

@@ -53,12 +53,52 @@ std::optional<cull::Design> stored_design(const traces::Manifest& manifest) {
   return std::nullopt;
 }
 
+/// What `record` has beside the options of every scene.
+traces::RecordOptions recorder_options(const RecordArgs& args) {
+  traces::RecordOptions options = record_options(args.scene);
+  if (args.culling != "on" && args.culling != "off")
+    throw Error("--culling", fmt::format("\"{}\" is neither on nor off", args.culling), "give on or off");
+  options.with_masks = args.culling == "on";
+  if (!options.with_masks && options.masks.entries != 0)
+    throw Error("--compress", "without culling there are no masks to compress", "leave it out, or give --culling on");
+  if (!args.designs.empty())
+    options.designs = parse_designs(args.designs);
+  else if (!options.with_masks)
+    options.designs = {cull::Design::None};
+  for (const cull::Design design : options.designs)
+    if (!options.with_masks && design != cull::Design::None)
+      throw Error("--designs", fmt::format("{} needs masks, and culling is off", to_string(design)),
+                  "give --designs none, or --culling on");
+  const auto check_alignment = [](const char* option, std::uint32_t bytes) {
+    try {
+      accel::validate({.node_alignment_bytes = bytes});
+    } catch (const Error& problem) {
+      throw Error(option, fmt::format("{} bytes are no alignment", bytes), problem.remedy());
+    }
+  };
+  check_alignment("--node-align", args.node_alignment_bytes);
+  check_alignment("--triangle-align", args.triangle_alignment_bytes);
+  options.layout.node_alignment_bytes = args.node_alignment_bytes;
+  options.layout.triangle_alignment_bytes = args.triangle_alignment_bytes;
+  options.strand_thickness = static_cast<float>(args.scene.strand_thickness);
+  return options;
+}
+
+std::string describe_masks(const traces::TraceReader& reader) {
+  const cull::MaskOptions& masks = reader.manifest().masks;
+  if (reader.manifest().image.shape.layout.mask_bits == 0) return "none; culling is off";
+  std::string text = fmt::format("R {}, R_ray {}, L {}", masks.resolution, masks.ray_resolution,
+                                 masks.levels == cull::kUnlimitedLevels ? "inf" : std::to_string(masks.levels));
+  if (const auto& lut = reader.compression())
+    text += fmt::format("; indices of {} bits into a compression LUT of {} entries ({} asked for, {})",
+                        lut->index_bits(), lut->entries(), masks.entries, to_string(masks.selection));
+  return text;
+}
+
 }  // namespace
 
 int record_command(const RecordArgs& args) {
-  traces::RecordOptions options = record_options(args.scene);
-  options.designs = parse_designs(args.designs);
-  options.strand_thickness = static_cast<float>(args.scene.strand_thickness);
+  const traces::RecordOptions options = recorder_options(args);
   const scene::Scene scene = load_scene(args.scene, args.scene.scenes.front());
   traces::RecordSummary summary;
   {
@@ -68,6 +108,9 @@ int record_command(const RecordArgs& args) {
   fmt::print("{}: {} triangles, {} nodes, {:.1f} MB image; {} rays, {:.1f} MB, hash {}\n", args.output,
              summary.triangles, summary.nodes, double(summary.image_bytes) / 1e6, summary.rays,
              double(summary.file_bytes) / 1e6, summary.hash);
+  if (summary.compression_entries != 0)
+    fmt::print("nodes of {} bytes; masks are indices into {} entries, selected in {:.2f} s\n",
+               summary.node_stride_bytes, summary.compression_entries, summary.compression_seconds);
   fmt::print("tree {:.2f} s, masks {:.2f} s, rays {:.2f} s\n", summary.build_seconds, summary.mask_seconds,
              summary.trace_seconds);
   print_designs(summary.designs);
@@ -86,8 +129,7 @@ int trace_info_command(const TraceArgs& args) {
   row("rays", fmt::format("{} {} in {} blocks; {}x{} pixels, {} samples, seed {}", reader.rays(),
                           traces::to_string(m.rays.kind), reader.blocks(), m.rays.width, m.rays.height,
                           m.rays.samples_per_pixel, m.rays.seed));
-  row("masks", fmt::format("R {}, R_ray {}, L {}", m.masks.resolution, m.masks.ray_resolution,
-                           m.masks.levels == cull::kUnlimitedLevels ? "inf" : std::to_string(m.masks.levels)));
+  row("masks", describe_masks(reader));
   row("image", fmt::format("{} nodes of {} bytes, {} triangles of {} bytes, depth {}", m.image.shape.node_count,
                            m.image.shape.node_stride_bytes, m.image.shape.triangle_count,
                            m.image.shape.triangle_stride_bytes, m.image.shape.depth));
@@ -103,7 +145,7 @@ int trace_head_command(const TraceArgs& args) {
   const LoadedTrace trace(args.trace);
   const traces::RayRange range = trace.range(args.first_ray, args.rays);
   const auto design = stored_design(trace.reader().manifest());
-  const cull::MaskTester tester(design.value_or(cull::Design::None), trace.mask_options());
+  const cull::MaskTester tester = trace.tester(design.value_or(cull::Design::None));
   traces::TraceFeed feed(trace.reader(), range, trace.bvh(), &trace.masks(), tester);
   fmt::print("steps with {}\n", to_string(tester.design()));
   while (const auto block = feed.next())

@@ -70,6 +70,26 @@ int parse_levels(const std::string& levels) {
   return number;
 }
 
+void parse_compression(const SceneArgs& args, cull::MaskOptions& masks) {
+  if (!args.compress) {
+    if (args.selection.empty()) return;
+    throw Error("--selection", "there are no entries to select", "add --compress 256");
+  }
+  masks.entries = *args.compress;
+  if (masks.entries < cull::kMinEntries || masks.entries > cull::kMaxEntries)
+    throw Error(
+        "--compress", fmt::format("{} entries are out of range", masks.entries),
+        fmt::format("give {} to {}, or leave it out for masks as they are", cull::kMinEntries, cull::kMaxEntries));
+  if (args.selection.empty()) return;
+  if (const auto selection = cull::selection_from_string(args.selection)) {
+    masks.selection = *selection;
+    return;
+  }
+  throw Error(
+      "--selection", fmt::format("unknown selection \"{}\"", args.selection),
+      fmt::format("did you mean \"{}\"?", nearest_name(args.selection, {"top-per-node", "top-summed", "refined"})));
+}
+
 cull::MaskOptions parse_masks(const SceneArgs& args) {
   cull::MaskOptions masks;
   masks.resolution = args.resolution;
@@ -81,22 +101,25 @@ cull::MaskOptions parse_masks(const SceneArgs& args) {
   };
   check("--r", masks.resolution, cull::kMinResolution, cull::kMaxResolution);
   check("--r-ray", masks.ray_resolution, masks.resolution, cull::kMaxRayResolution);
+  parse_compression(args, masks);
   return masks;
 }
 
 }  // namespace
 
 std::vector<cull::Design> parse_designs(const std::string& list) {
+  static const std::vector<std::string> known{"none",  "ideal",      "mask-lut",   "bit-table",
+                                              "dedup", "projection", "comparators"};
   std::vector<cull::Design> designs;
   for (std::size_t begin = 0; begin <= list.size();) {
     const std::size_t comma = std::min(list.find(',', begin), list.size());
     const std::string name = list.substr(begin, comma - begin);
     const auto design = cull::design_from_string(name);
     if (!design) {
-      const std::vector<std::string> known{"none", "ideal", "mask-lut", "projection", "comparators"};
+      std::string listed;
+      for (const std::string& one : known) listed += (listed.empty() ? "" : ", ") + one;
       throw Error("--designs", fmt::format("unknown design \"{}\"", name),
-                  fmt::format("did you mean \"{}\"? Known: {}", nearest_name(name, known),
-                              "none, ideal, mask-lut, projection, comparators"));
+                  fmt::format("did you mean \"{}\"? Known: {}", nearest_name(name, known), listed));
     }
     designs.push_back(*design);
     begin = comma + 1;

@@ -86,7 +86,7 @@ unit::Mode parse_mode(const std::string& name) { return parse_choice("--mode", n
 unit::Source parse_source(const std::string& name) { return parse_choice("--source", name, kSources); }
 
 RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
-  const cull::MaskTester tester(plan.config.mask_test.design, trace.mask_options());
+  const cull::MaskTester tester = trace.tester(plan.config.mask_test.design);
   RunRecord record;
   record.engine = plan.engine;
   record.mode = name_of(plan.options.mode, kModes);

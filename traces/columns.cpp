@@ -1,6 +1,7 @@
 #include "traces/columns.h"
 
 #include <cstring>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <zstd.h>
@@ -30,8 +31,8 @@ void spread(const std::uint8_t* __restrict from, std::size_t elements, std::uint
 template <class Word>
 void gather(const std::uint8_t* __restrict from, std::size_t elements, std::uint8_t* __restrict to) {
   for (std::size_t i = 0; i < elements; ++i) {
-    std::uint32_t word = 0;
-    for (std::size_t b = 0; b < sizeof(Word); ++b) word |= std::uint32_t{from[b * elements + i]} << (8 * b);
+    std::common_type_t<Word, std::uint32_t> word = 0;  // shifts of narrower ones would be signed
+    for (std::size_t b = 0; b < sizeof(Word); ++b) word |= decltype(word){from[b * elements + i]} << (8 * b);
     const auto value = static_cast<Word>(word);
     std::memcpy(to + i * sizeof value, &value, sizeof value);
   }
@@ -50,6 +51,7 @@ std::string to_string(Per per) {
 }
 
 std::size_t type_bytes(const std::string& type) {
+  if (type == "u64") return 8;
   if (type == "f32" || type == "u32") return 4;
   if (type == "u16") return 2;
   if (type == "u8") return 1;
@@ -94,6 +96,12 @@ Section steps_section(const std::string& design, bool with_keys) {
   return section;
 }
 
+Section compression_section() {
+  return {
+      "compression",
+      {{"entries", "u64", Per::Word, "64 cells", "masks that indices name: fewest cells first, the last one full"}}};
+}
+
 struct ColumnEncoder::State {
   ZSTD_CCtx* context = ZSTD_createCCtx();
   std::vector<std::uint8_t> planes;
@@ -119,6 +127,7 @@ EncodedColumn ColumnEncoder::encode(const void* data, std::size_t elements, std:
   const std::uint8_t* planes = source;
   if (width > 1) {
     state_->planes.resize(bytes);
+    if (width == 8) spread<std::uint64_t>(source, elements, state_->planes.data());
     if (width == 4) spread<std::uint32_t>(source, elements, state_->planes.data());
     if (width == 2) spread<std::uint16_t>(source, elements, state_->planes.data());
     planes = state_->planes.data();
@@ -166,6 +175,7 @@ void ColumnDecoder::decode(const std::vector<std::uint8_t>& frame, std::size_t e
   const std::size_t got = ZSTD_decompressDCtx(state_->context, planes, bytes, frame.data(), frame.size());
   if (ZSTD_isError(got) != 0) damaged(path, what, fmt::format("damaged: {}", ZSTD_getErrorName(got)));
   if (got != bytes) damaged(path, what, "damaged: the compressed frame holds another size");
+  if (width == 8) gather<std::uint64_t>(planes, elements, out);
   if (width == 4) gather<std::uint32_t>(planes, elements, out);
   if (width == 2) gather<std::uint16_t>(planes, elements, out);
   if (hash64(out, bytes) != checksum) damaged(path, what, "damaged: its checksum does not match");

@@ -16,7 +16,7 @@ enum class Per : std::uint8_t { Ray, Step, Key, Word, Unknown };
 
 struct Column {
   std::string name;
-  std::string type;  ///< "f32", "u32", "u16", "u8"
+  std::string type;  ///< "f32", "u64", "u32", "u16", "u8"
   Per per = Per::Unknown;
   std::string unit;
   std::string description;
@@ -36,6 +36,7 @@ Section image_section();
 Section rays_section();
 Section hits_section();
 Section steps_section(const std::string& design, bool with_keys);
+Section compression_section();  ///< only where masks are compressed
 
 /// One column of one block, compressed.
 struct EncodedColumn {

@@ -43,7 +43,7 @@ FileHeader read_header(const InputFile& file) {
   if (header.major != kFormatMajor)
     refuse(file.path(), "header",
            fmt::format("format version {}.{}; this program reads version {}", header.major, header.minor, kFormatMajor),
-           header.major > kFormatMajor ? "use a newer program" : "record the trace again");
+           header.major > kFormatMajor ? "use a newer program" : "record the trace again with this program");
   return header;
 }
 

@@ -69,7 +69,11 @@ Json to_json_value(const accel::BuildOptions& build) {
 }
 
 Json to_json_value(const cull::MaskOptions& masks) {
-  return {{"resolution", masks.resolution}, {"ray_resolution", masks.ray_resolution}, {"levels", masks.levels}};
+  return {{"resolution", masks.resolution},
+          {"ray_resolution", masks.ray_resolution},
+          {"levels", masks.levels},
+          {"entries", masks.entries},
+          {"selection", cull::to_string(masks.selection)}};
 }
 
 Json to_json_value(const ImageInfo& info) {
@@ -210,6 +214,13 @@ class Reader {
     if (!design) fail(fmt::format("\"{}\" names no design: {}", key, text));
     to = *design;
   }
+  void get(const char* key, cull::Selection& to) const {
+    std::string text;
+    get(key, text);
+    const auto selection = cull::selection_from_string(text);
+    if (!selection) fail(fmt::format("\"{}\" names no selection: {}", key, text));
+    to = *selection;
+  }
 
  private:
   float number(const char* key, const Json& value) const {
@@ -272,7 +283,9 @@ void read(const Reader& from, accel::BuildOptions& to) {
 void read(const Reader& from, cull::MaskOptions& to) {
   from.get("resolution", to.resolution, cull::kMinResolution, cull::kMaxResolution);
   from.get("ray_resolution", to.ray_resolution, 1, cull::kMaxRayResolution);
-  from.get("levels", to.levels, 0, 64);
+  from.get("levels", to.levels, 0, cull::kMaxLevels);
+  from.get("entries", to.entries, 0, cull::kMaxEntries);
+  from.get("selection", to.selection);
 }
 
 void read(const Reader& from, ImageInfo& to) {

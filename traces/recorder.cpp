@@ -6,15 +6,16 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include <fmt/format.h>
 
-#include "model/accel/image.h"
 #include "model/base/error.h"
 #include "model/base/parallel.h"
 #include "model/cull/mask_test.h"
 #include "model/cull/object_masks.h"
 #include "model/reference/traversal.h"
+#include "traces/mask_set.h"
 #include "traces/ray_generator.h"
 #include "traces/trace_writer.h"
 
@@ -28,14 +29,13 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// A design at work: its tables and its walk.
+/// A design at work: its tables, made before anything else so that tables too large are refused at once, and its walk.
 struct Culler {
-  Culler(Design d, bool store, const RecordOptions& options, const accel::Bvh4& bvh, const cull::ObjectMasks& masks)
-      : design(d), stored(store), tester(d, options.masks), traversal(bvh, &masks, tester) {}
+  Culler(Design d, bool store, const cull::MaskOptions& masks) : design(d), stored(store), tester(d, masks) {}
   Design design;
   bool stored;
   cull::MaskTester tester;
-  reference::Traversal traversal;
+  std::optional<reference::Traversal> traversal;
 };
 
 /// The designs asked for, each event class once, those to be stored first.
@@ -115,7 +115,7 @@ class BlockTracer {
                       const std::vector<intersect::Hit>& expected, StepList& steps, DesignCounts& counts,
                       std::vector<Difference>& differences) {
     for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-      const intersect::Hit hit = culler.traversal.trace(rays[ray], &steps);
+      const intersect::Hit hit = culler.traversal->trace(rays[ray], &steps);
       if (same_bits(hit, expected[ray])) continue;
       ++counts.different_hits;
       differences.push_back({culler.design, ray, expected[ray], hit});
@@ -183,6 +183,26 @@ void check_options(const RecordOptions& options) {
   if (options.rays_per_block < 1 || options.rays_per_block > kMaxRaysPerBlock)
     throw Error("record", fmt::format("rays_per_block is {}", options.rays_per_block),
                 fmt::format("give 1 to {}", kMaxRaysPerBlock));
+  cull::validate(options.masks);
+  accel::validate(options.layout);
+  if (options.with_masks) return;
+  if (options.masks.entries != 0) throw Error("record", "masks that are left out cannot be compressed", "ask for one");
+  for (const auto& [design, stored] : designs_of(options))
+    if (design != Design::None)
+      throw Error("record", fmt::format("design {} without masks", cull::to_string(design)), "record design none only");
+}
+
+/// The masks that the walks ask and the nodes carry; empty when they carry none.
+MaskSet masks_for(const accel::Bvh4& bvh, const RecordOptions& options, RecordSummary& summary) {
+  if (!options.with_masks) return {};
+  auto start = std::chrono::steady_clock::now();
+  cull::ObjectMasks masks = cull::build_object_masks(bvh, options.masks, options.threads);
+  summary.mask_seconds = seconds_since(start);
+  start = std::chrono::steady_clock::now();
+  MaskSet set = mask_set(bvh, std::move(masks), options.masks, options.threads);
+  summary.compression_seconds = seconds_since(start);
+  summary.compression_entries = set.lut ? set.lut->entries() : 0;
+  return set;
 }
 
 }  // namespace
@@ -191,36 +211,32 @@ RecordSummary record(const scene::Scene& scene, const RecordOptions& options, co
                      const RecordProgress& progress) {
   check_options(options);
   const RayGenerator generator(scene, options.rays);
+  const Manifest manifest = make_manifest(scene, options);
+  std::vector<std::unique_ptr<Culler>> cullers;
+  for (const DesignCounts& entry : manifest.designs)
+    cullers.push_back(std::make_unique<Culler>(entry.design, entry.stored, options.masks));
   RecordSummary summary;
+  summary.designs = manifest.designs;
 
   auto start = std::chrono::steady_clock::now();
   const accel::Bvh4 bvh = accel::build(scene.mesh, options.build);
   summary.build_seconds = seconds_since(start);
+  const MaskSet set = masks_for(bvh, options, summary);
 
   start = std::chrono::steady_clock::now();
-  const cull::ObjectMasks masks = cull::build_object_masks(bvh, options.masks, options.threads);
-  summary.mask_seconds = seconds_since(start);
-
-  start = std::chrono::steady_clock::now();
-  const Manifest manifest = make_manifest(scene, options);
-  summary.designs = manifest.designs;
-  const auto resolution = static_cast<std::uint32_t>(options.masks.resolution);
-  accel::ImageLayout layout;
-  layout.mask_bits = resolution * resolution * resolution;
   const auto make_writer = [&] {  // the image is large and needed only here
-    const accel::Image image = accel::make_image(bvh, masks.bits.data(), masks.words, layout);
+    const accel::Image image = image_of(bvh, options.with_masks ? &set : nullptr, options.layout);
     summary.image_bytes = image.bytes.size();
     summary.nodes = image.node_count;
+    summary.node_stride_bytes = image.node_stride_bytes;
     summary.triangles = image.triangle_count;
-    return std::make_unique<TraceWriter>(path, manifest, image);
+    return std::make_unique<TraceWriter>(path, manifest, image, set.lut.get());
   };
   const std::unique_ptr<TraceWriter> writer = make_writer();
 
   const cull::MaskTester no_culling(Design::None, options.masks);
   const reference::Traversal expected(bvh, nullptr, no_culling);
-  std::vector<std::unique_ptr<Culler>> cullers;
-  for (const DesignCounts& entry : manifest.designs)
-    cullers.push_back(std::make_unique<Culler>(entry.design, entry.stored, options, bvh, masks));
+  for (const auto& culler : cullers) culler->traversal.emplace(bvh, &set.masks, culler->tester);
   const BlockTracer tracer(generator, cullers, expected);
 
   OrderedSink sink(*writer, summary);

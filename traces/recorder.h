@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/accel/build.h"
+#include "model/accel/image.h"
 #include "model/cull/options.h"
 #include "model/scene/scene.h"
 #include "traces/manifest.h"
@@ -18,7 +19,9 @@ struct RecordOptions {
   RayOptions rays;
   accel::BuildOptions build;
   cull::MaskOptions masks;
-  /// Whose steps are stored. Projection stores MaskLut's, which are its own.
+  bool with_masks = true;     ///< false: nodes carry none, and the only design is None
+  accel::ImageLayout layout;  ///< alignments; mask_bits follow from `masks`
+  /// Whose steps are stored. Projection, Dedup and BitTable store MaskLut's, which are their own.
   std::vector<cull::Design> designs = {cull::Design::None, cull::Design::MaskLut, cull::Design::Comparators};
   std::vector<cull::Design> count_only;  ///< counted for the manifest, not stored
   std::uint32_t rays_per_block = 16384;  ///< at most; 1 .. kMaxRaysPerBlock
@@ -31,7 +34,9 @@ struct RecordSummary {
   std::uint64_t file_bytes = 0;
   std::uint64_t image_bytes = 0;
   std::uint32_t nodes = 0, triangles = 0;
-  double build_seconds = 0, mask_seconds = 0, trace_seconds = 0;
+  std::uint32_t node_stride_bytes = 0;
+  int compression_entries = 0;  ///< 0: masks are not compressed
+  double build_seconds = 0, mask_seconds = 0, compression_seconds = 0, trace_seconds = 0;
   std::vector<DesignCounts> designs;    ///< stored ones first
   std::vector<Difference> differences;  ///< the first kMaxListedDifferences; all are counted in `designs`
   std::string hash;                     ///< trace hash

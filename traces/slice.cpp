@@ -40,7 +40,7 @@ std::string slice(const std::string& in, const std::string& out, RayRange range)
   const accel::Bvh4 bvh = accel::decode(image);
   const Manifest manifest = manifest_of_slice(reader, range);
   std::vector<DesignCounts> designs = manifest.designs;
-  TraceWriter writer(out, manifest, image);
+  TraceWriter writer(out, manifest, image, reader.compression().get());
 
   for (std::uint64_t ray = range.first; ray < range.last;) {
     const std::uint64_t number = reader.block_of(ray), start = reader.first_ray(number);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "model/base/error.h"
+#include "model/cull/mask_words.h"
 #include "traces/columns.h"
 #include "traces/trace_hash.h"
 
@@ -42,6 +43,7 @@ TraceReader::TraceReader(const std::string& path) : file_(path) {
   count_rays();
   for (const Section& wanted : of_rays) expect_rays(wanted);
   if (rays() != manifest_.ray_count) refuse("rays", "not as many rays as the manifest says");
+  if (manifest_.masks.entries != 0) read_compression();
   hash_ = trace_hash(manifest_, index_);
 }
 
@@ -150,15 +152,58 @@ accel::Image TraceReader::read_image() const {
     const auto* first = reinterpret_cast<const std::uint8_t*>(words.data());
     image.bytes.insert(image.bytes.end(), first, first + words.size() * sizeof(std::uint32_t));
   }
-  const std::uint32_t resolution = static_cast<std::uint32_t>(manifest_.masks.resolution);
-  if (image.layout.mask_bits != 0 && image.layout.mask_bits != resolution * resolution * resolution)
-    refuse("image", fmt::format("masks of {} bits are not those of R = {}", image.layout.mask_bits, resolution));
   try {
     accel::validate(image);
   } catch (const Error& problem) {
     refuse("image", problem.what());
   }
+  check_masks(image);
   return image;
+}
+
+/// For an image that is valid but for what its masks mean.
+void TraceReader::check_masks(const accel::Image& image) const {
+  const std::uint32_t bits = image.layout.mask_bits;
+  if (!compression_) {
+    const auto resolution = static_cast<std::uint32_t>(manifest_.masks.resolution);
+    if (bits != 0 && bits != resolution * resolution * resolution)
+      refuse("image", fmt::format("masks of {} bits are not those of R = {}", bits, resolution));
+    return;
+  }
+  if (bits != static_cast<std::uint32_t>(compression_->index_bits()))
+    refuse("image",
+           fmt::format("indices of {} bits into a compression LUT of {} entries", bits, compression_->entries()));
+  const auto entries = static_cast<std::uint64_t>(compression_->entries());
+  for (std::uint32_t node = 0; node < image.node_count; ++node)
+    for (int lane = 0; lane < intersect::kLanes; ++lane) {
+      std::uint64_t index = 0;
+      accel::read_mask(image, node, lane, &index);
+      if (index >= entries)
+        refuse("image", fmt::format("node {}, lane {}: there is no entry {} in the compression LUT of {}", node, lane,
+                                    index, entries));
+    }
+}
+
+/// The LUT is what its words say only if they are in the one order that it has.
+void TraceReader::read_compression() {
+  const Section section = compression_section();
+  expect_columns(section);
+  const std::string& column = section.columns.front().name;
+  if (place(section.name, column).entries.size() != 1) refuse(section.name, "not one block");
+  ColumnDecoder decoder;
+  const auto words = read_column<std::uint64_t>(decoder, section.name, column.c_str(), 0, std::nullopt);
+  const std::vector<std::uint64_t> full = cull::full_mask(manifest_.masks.resolution);
+  const std::size_t size = full.size(), entries = words.size() / size;
+  if (words.size() % size != 0 || entries < 1 || entries > static_cast<std::size_t>(manifest_.masks.entries))
+    refuse(section.name,
+           fmt::format("{} words are not up to {} entries of {}", words.size(), manifest_.masks.entries, size));
+  for (std::size_t i = 0; i < entries; ++i)
+    if (!cull::holds_all(full.data(), words.data() + i * size, static_cast<int>(size)))
+      refuse(section.name, fmt::format("entry {} has cells that R = {} does not have", i, manifest_.masks.resolution));
+  if (!std::equal(full.begin(), full.end(), words.end() - static_cast<std::ptrdiff_t>(size)))
+    refuse(section.name, "the last entry is not the full mask");
+  compression_ = std::make_shared<const cull::CompressionLut>(manifest_.masks.resolution, words);
+  if (compression_->bits() != words) refuse(section.name, "the entries are not in ascending order, each once");
 }
 
 void TraceReader::read_rays(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const {
@@ -249,18 +294,6 @@ void TraceReader::verify() const {
     content.resize(entry.elements * width);
     decoder.decode(frame, entry.elements, width, entry.checksum, content.data(), path(), what);
   }
-}
-
-cull::ObjectMasks masks_of(const accel::Image& image, const cull::MaskOptions& options) {
-  cull::ObjectMasks masks;
-  masks.resolution = options.resolution;
-  masks.words = cull::words_per_mask(options.resolution);
-  if (image.layout.mask_bits == 0) return masks;
-  masks.bits.resize(static_cast<std::size_t>(image.node_count) * intersect::kLanes * masks.words);
-  std::uint64_t* to = masks.bits.data();
-  for (std::uint32_t node = 0; node < image.node_count; ++node)
-    for (int lane = 0; lane < intersect::kLanes; ++lane, to += masks.words) accel::read_mask(image, node, lane, to);
-  return masks;
 }
 
 }  // namespace ctu::traces

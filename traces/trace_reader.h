@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "model/accel/image.h"
-#include "model/cull/object_masks.h"
+#include "model/cull/compression_lut.h"
 #include "model/reference/ray_block.h"
 #include "traces/file.h"
 #include "traces/manifest.h"
@@ -31,7 +31,10 @@ class TraceReader {
   std::uint64_t block_of(std::uint64_t ray) const;  ///< ray < rays()
   bool has_steps(cull::Design design) const;        ///< of its event class
 
-  /// The image the steps refer to, validated.
+  /// What the object masks are compressed with; null when they are not.
+  const std::shared_ptr<const cull::CompressionLut>& compression() const { return compression_; }
+
+  /// The image the steps refer to, validated; where masks are compressed, every index is one of the LUT.
   accel::Image read_image() const;
 
   /// One block; with the steps of a design that has them. Steps are whole and add up; whether they are a walk through
@@ -50,6 +53,8 @@ class TraceReader {
   void expect_columns(const Section& wanted) const;
   void count_rays();
   void expect_rays(const Section& wanted) const;
+  void read_compression();
+  void check_masks(const accel::Image& image) const;
   const ColumnPlace& place(const std::string& section, const std::string& column) const;
   template <class T>
   std::vector<T> read_column(ColumnDecoder& decoder, const std::string& section, const char* column,
@@ -64,11 +69,9 @@ class TraceReader {
   Manifest manifest_;
   std::vector<IndexEntry> index_;
   std::string hash_;
+  std::shared_ptr<const cull::CompressionLut> compression_;
   std::vector<std::vector<ColumnPlace>> places_;  ///< of section, column
   std::vector<std::uint64_t> first_ray_{0};
 };
-
-/// The masks that an image carries, as the software asks them. Empty bits when it carries none.
-cull::ObjectMasks masks_of(const accel::Image& image, const cull::MaskOptions& options);
 
 }  // namespace ctu::traces

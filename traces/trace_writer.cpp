@@ -97,7 +97,8 @@ EncodedBlock BlockEncoder::encode(const std::vector<intersect::Ray>& rays, const
   return block;
 }
 
-TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel::Image& image)
+TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel::Image& image,
+                         const cull::CompressionLut* compression)
     : manifest_(std::move(manifest)),
       stored_designs_(stored_designs(manifest_)),
       encoder_(stored_designs_),
@@ -110,9 +111,16 @@ TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel
   manifest_.sections = {image_section(), rays_section(), hits_section()};
   for (const cull::Design design : stored_designs_)
     manifest_.sections.push_back(steps_section(std::string(cull::to_string(design)), has_keys(design)));
+  if (manifest_.masks.entries != 0) manifest_.sections.push_back(compression_section());
 
   const FileHeader header = make_header();
   file_.write(&header, sizeof header);
+  add_image(image);
+  assert((manifest_.masks.entries != 0) == (compression != nullptr));
+  if (compression != nullptr) add_compression(*compression);
+}
+
+void TraceWriter::add_image(const accel::Image& image) {
   assert(image.bytes.size() % sizeof(std::uint32_t) == 0);
   const std::size_t words = image.bytes.size() / sizeof(std::uint32_t);
   ColumnEncoder encoder;
@@ -123,6 +131,13 @@ TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel
     column.back().section = kImageSection;
     add_columns(column, static_cast<std::uint32_t>(block));
   }
+}
+
+void TraceWriter::add_compression(const cull::CompressionLut& lut) {
+  std::vector<EncodedColumn> column;
+  column.push_back(ColumnEncoder().encode(lut.bits().data(), lut.bits().size(), sizeof(std::uint64_t)));
+  column.back().section = static_cast<std::uint16_t>(manifest_.sections.size() - 1);
+  add_columns(column, 0);
 }
 
 void TraceWriter::add_columns(const std::vector<EncodedColumn>& columns, std::uint32_t block) {

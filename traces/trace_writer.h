@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/accel/image.h"
+#include "model/cull/compression_lut.h"
 #include "model/reference/ray_block.h"
 #include "traces/columns.h"
 #include "traces/file.h"
@@ -33,9 +34,11 @@ class BlockEncoder {
 
 class TraceWriter {
  public:
-  /// Creates the file and writes the image. The designs that the manifest calls stored are those whose steps come with
-  /// every block. Throws Error when the file cannot be written.
-  TraceWriter(const std::string& path, Manifest manifest, const accel::Image& image);
+  /// Creates the file and writes the image, and what its masks are compressed with when the manifest says that they
+  /// are. The designs that the manifest calls stored are those whose steps come with every block. Throws Error when the
+  /// file cannot be written.
+  TraceWriter(const std::string& path, Manifest manifest, const accel::Image& image,
+              const cull::CompressionLut* compression = nullptr);
 
   BlockEncoder make_encoder() const { return BlockEncoder(stored_designs_); }
   void add(const EncodedBlock& block);
@@ -45,6 +48,8 @@ class TraceWriter {
   std::string finish(std::vector<DesignCounts> designs, std::vector<Difference> differences);
 
  private:
+  void add_image(const accel::Image& image);
+  void add_compression(const cull::CompressionLut& lut);
   void add_columns(const std::vector<EncodedColumn>& columns, std::uint32_t block);
 
   Manifest manifest_;

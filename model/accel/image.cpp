@@ -52,18 +52,6 @@ bool is_alignment(std::uint32_t bytes) {
   return std::has_single_bit(bytes) && bytes >= 4 && bytes <= kMaxAlignmentBytes;
 }
 
-void check(const ImageLayout& layout) {
-  const char* const where = "image layout";
-  if (!is_alignment(layout.node_alignment_bytes) || !is_alignment(layout.triangle_alignment_bytes))
-    throw Error(where,
-                fmt::format("alignments are {} (nodes) and {} (triangles) bytes", layout.node_alignment_bytes,
-                            layout.triangle_alignment_bytes),
-                fmt::format("choose powers of two from 4 to {}", kMaxAlignmentBytes));
-  if (layout.mask_bits > kMaxMaskBits)
-    throw Error(where, fmt::format("mask_bits is {}", layout.mask_bits),
-                fmt::format("choose at most {}", kMaxMaskBits));
-}
-
 /// Everything but the contents: strides, addresses and the size that follow from layout and counts.
 Image frame(const ImageLayout& layout, std::uint32_t nodes, std::uint32_t triangles) {
   Image image;
@@ -123,7 +111,7 @@ class Validator {
   }
 
   static void check_sizes(const Image& image) {
-    check(image.layout);
+    validate(image.layout);
     if (image.node_count == 0 || image.node_count > 0x7FFFFFFFu) fail("image, node_count", "outside 1 .. 2^31-1");
     if (image.triangle_count == 0 || image.triangle_count > kMaxTriangles)
       fail("image, triangle_count", fmt::format("outside 1 .. {}", kMaxTriangles));
@@ -214,8 +202,20 @@ class Validator {
 
 }  // namespace
 
+void validate(const ImageLayout& layout) {
+  const char* const where = "image layout";
+  if (!is_alignment(layout.node_alignment_bytes) || !is_alignment(layout.triangle_alignment_bytes))
+    throw Error(where,
+                fmt::format("alignments are {} (nodes) and {} (triangles) bytes", layout.node_alignment_bytes,
+                            layout.triangle_alignment_bytes),
+                fmt::format("choose powers of two from 4 to {}", kMaxAlignmentBytes));
+  if (layout.mask_bits > kMaxMaskBits)
+    throw Error(where, fmt::format("mask_bits is {}", layout.mask_bits),
+                fmt::format("choose at most {}", kMaxMaskBits));
+}
+
 Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask, const ImageLayout& layout) {
-  check(layout);
+  validate(layout);
   if (layout.mask_bits != 0 && (masks == nullptr || words_per_mask < static_cast<int>((layout.mask_bits + 63) / 64)))
     throw Error("image layout", fmt::format("{} mask bits but {} words", layout.mask_bits, words_per_mask),
                 "give masks of ceil(mask_bits / 64) words, or no mask_bits");

@@ -33,6 +33,9 @@ struct ImageLayout {
   bool operator==(const ImageLayout&) const = default;
 };
 
+/// Throws Error unless the alignments are powers of two within bounds and mask_bits is not beyond any mask.
+void validate(const ImageLayout& layout);
+
 /// Bytes of one lane's mask.
 constexpr std::uint32_t mask_bytes(const ImageLayout& layout) { return (layout.mask_bits + 7) / 8; }
 

@@ -157,6 +157,45 @@ TEST_F(CommandTest, a_slice_runs_as_a_trace_of_its_own) {
   EXPECT_EQ(json::parse(read_text(file("part.json")))["rays"], 50);
 }
 
+TEST_F(CommandTest, a_trace_of_compressed_masks_says_so_and_loses_no_hit) {
+  const std::string recorded = "record 'gen:hair-ball?strands=200&seed=7' -o packed.ctut --size 32x32 --compress 64";
+  ASSERT_EQ(ctusim(recorded + " --selection top-summed").exit_code, 0);
+  const Outcome info = ctusim("trace info packed.ctut");
+  EXPECT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_NE(info.out.find("indices of 6 bits into a compression LUT of 64 entries (64 asked for, top-summed)"),
+            std::string::npos)
+      << info.out;
+  EXPECT_NE(info.out.find("nodes of 116 bytes"), std::string::npos) << info.out;
+  const Outcome run = ctusim("run packed.ctut --engine reference --set mask_test.design=bit-table --json packed.json");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(json::parse(read_text(file("packed.json")))["wrong_hits"], 0);
+}
+
+TEST_F(CommandTest, nodes_have_the_bytes_that_masks_and_alignment_ask_for) {
+  const std::map<std::string, int> stride_of = {{"", 144},
+                                                {"--r 6", 220},
+                                                {"--compress 256", 116},
+                                                {"--compress 4096", 120},
+                                                {"--culling off", 112},
+                                                {"--node-align 128", 256},
+                                                {"--node-align 128 --compress 16", 128},
+                                                {"--node-align 64 --culling off", 128}};
+  for (const auto& [options, bytes] : stride_of) {
+    ASSERT_EQ(ctusim("record 'gen:hair-ball?strands=50' -o stride.ctut --size 8x8 " + options).exit_code, 0) << options;
+    const Outcome info = ctusim("trace info stride.ctut");
+    EXPECT_NE(info.out.find("nodes of " + std::to_string(bytes) + " bytes"), std::string::npos) << options << info.out;
+  }
+  ASSERT_EQ(ctusim("record 'gen:hair-ball?strands=50' -o stride.ctut --size 8x8 --triangle-align 64").exit_code, 0);
+  EXPECT_NE(ctusim("trace info stride.ctut").out.find("triangles of 64 bytes"), std::string::npos);
+}
+
+TEST_F(CommandTest, a_trace_without_masks_runs_without_culling_only) {
+  ASSERT_EQ(ctusim("record 'gen:hair-ball?strands=50' -o bare.ctut --size 8x8 --culling off").exit_code, 0);
+  EXPECT_EQ(ctusim("run bare.ctut --set mask_test.design=none").exit_code, 0);
+  expect_refused("run bare.ctut --set mask_test.design=projection", "carries no masks");
+  expect_refused("run bare.ctut --engine reference --set mask_test.design=comparators", "carries no masks");
+}
+
 TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("run missing.ctut", "missing.ctut");
   expect_refused("run hair.ctut --set mask_test.desing=none", "mask_test.design");
@@ -172,6 +211,21 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("record gen:hair-ball -o x.ctut --size big", "--size");
   expect_refused("record gen:hair-ball -o x.ctut --r 9", "--r");
   expect_refused("record gen:hair-ball -o x.ctut --l 7", "--l");
+  for (const std::string command :
+       {"record gen:hair-ball -o x.ctut", "culling gen:hair-ball", "heatmap gen:hair-ball -o x.png"}) {
+    expect_refused(command + " --compress 0", "--compress");
+    expect_refused(command + " --compress 15", "--compress");
+    expect_refused(command + " --compress 4097", "--compress");
+    expect_refused(command + " --compress 64 --selection best", "--selection");
+    expect_refused(command + " --selection refined", "--compress 256");
+    expect_refused(command + " --r 4 --r-ray 3", "--r-ray");
+    expect_refused(command + " --r 4 --r-ray 25", "--r-ray");
+  }
+  expect_refused("record gen:hair-ball -o x.ctut --node-align 24", "--node-align");
+  expect_refused("record gen:hair-ball -o x.ctut --triangle-align 0", "--triangle-align");
+  expect_refused("record gen:hair-ball -o x.ctut --culling maybe", "--culling");
+  expect_refused("record gen:hair-ball -o x.ctut --culling off --designs none,mask-lut", "--designs");
+  expect_refused("record gen:hair-ball -o x.ctut --culling off --compress 64", "--compress");
   expect_refused("record gen:hair-ball -o no/such/folder/x.ctut", "no/such/folder");
   expect_refused("record gen:hair-ball", "--output");
   expect_refused("record gen:hair-ball -o x.ctut --eye nan,0,0", "--eye");

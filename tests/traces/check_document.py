@@ -52,6 +52,16 @@ def compare(trace, folder, functions):
     check("the image's size", 4 * len(words) == trace.manifest["image"]["size_bytes"])
 
 
+def compare_masks(trace, folder, name, compressed):
+    image = trace.manifest["image"]
+    masks = trace.masks()
+    children = trace.nodes()[:, 96:112].copy().view("<u4")
+    masks[children == 0xFFFFFFFF] = 0
+    wanted = np.fromfile(os.path.join(folder, f"masks-{name}.bin"), "<u8")
+    check(f"{len(wanted)} words of the masks of {name}", np.array_equal(masks.ravel(), wanted))
+    check(f"{name} carries {image['mask_bits']} bits a lane", (image["mask_bits"] < 64) == compressed)
+
+
 def main(document, dump_program):
     with open(document, encoding="utf-8") as file:
         snippets = re.findall(r"```python\n(.*?)```", file.read(), re.S)
@@ -62,6 +72,8 @@ def main(document, dump_program):
         subprocess.run([dump_program, folder], check=True)
         path = os.path.join(folder, "trace.ctut")
         compare(functions["Trace"](path), folder, functions)
+        compare_masks(functions["Trace"](path), folder, "trace", False)
+        compare_masks(functions["Trace"](os.path.join(folder, "compressed.ctut")), folder, "compressed", True)
         if shutil.which("zstd"):
             with open(path, "rb") as file:
                 check("zstd -t", subprocess.run(["zstd", "-tq"], stdin=file, check=False).returncode == 0)

@@ -1,6 +1,7 @@
 // Records a small trace and writes what TraceReader finds in it as plain arrays, for the test of the documentation:
 //   dump FOLDER   writes FOLDER/trace.ctut, rays.bin (8 binary32 a ray), hits.bin (t, u, v, primitive), and for each
-//   stored design steps-NAME.bin (Step, 8 bytes) and first-NAME.bin (u64)
+//   stored design steps-NAME.bin (Step, 8 bytes) and first-NAME.bin (u64); and FOLDER/compressed.ctut, the same with
+//   R = 5 and compressed masks; of both the object masks, masks-trace.bin and masks-compressed.bin (u64)
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "model/base/error.h"
 #include "tests/traces/test_support.h"
+#include "traces/mask_set.h"
 
 namespace {
 
@@ -16,6 +18,20 @@ using namespace ctu;
 template <class T>
 void append(std::ofstream& file, const T& value) {
   file.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void dump_masks(const std::string& folder, const std::string& name) {
+  const traces::TraceReader reader(folder + "/" + name + ".ctut");
+  const cull::ObjectMasks masks =
+      traces::masks_of(reader.read_image(), reader.manifest().masks, reader.compression().get());
+  std::ofstream file(folder + "/masks-" + name + ".bin", std::ios::binary);
+  for (const std::uint64_t word : masks.bits) append(file, word);
+}
+
+void dump_compressed(const std::string& folder) {
+  traces::RecordOptions options = traces::test::small_options();
+  options.masks = {.resolution = 5, .ray_resolution = 5, .entries = 64};
+  traces::record(traces::test::hair_scene(), options, folder + "/compressed.ctut");
 }
 
 void dump(const std::string& folder) {
@@ -51,6 +67,9 @@ int main(int argc, char** argv) {
   if (argc != 2) return 2;
   try {
     dump(argv[1]);
+    dump_compressed(argv[1]);
+    dump_masks(argv[1], "trace");
+    dump_masks(argv[1], "compressed");
   } catch (const ctu::Error& problem) {
     std::fprintf(stderr, "%s\n", problem.what());
     return 1;

@@ -11,6 +11,7 @@
 #include "model/cull/object_masks.h"
 #include "model/reference/traversal.h"
 #include "tests/traces/test_support.h"
+#include "traces/mask_set.h"
 #include "traces/slice.h"
 #include "traces/trace_feed.h"
 #include "traces/trace_writer.h"
