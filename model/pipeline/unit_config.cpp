@@ -215,6 +215,11 @@ void add_node_path(Parameters& list) {
   list.push_back(integer(
       "mask_test.projection_tables", "tables", {1, 3}, [](auto& c) -> auto& { return c.mask_test.projection_tables; },
       "Design projection: 3, a table for each pair of axes, or 1, read three times a lane."));
+  add_cache(
+      list, "table_cache", "node's table rows",
+      "Cache of table rows, when the mask test's tables lie in memory; 0: the tables are resident, on chip as a "
+      "whole, as all designs allow at R = R_ray = 4.",
+      [](auto& c) -> auto& { return c.table_cache; });
   list.push_back(integer(
       "child_sort.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.child_sort.latency; },
       "Five comparators in three rows."));
@@ -291,11 +296,6 @@ const std::vector<Parameter>& parameters() {
         all, "leaf_cache", "leaf", l1_of("leaf"), [](auto& c) -> auto& { return c.leaf_cache; });
     add_memory(all);
     add_node_path(all);
-    add_cache(
-        all, "table_cache", "node's table rows",
-        "Cache of table rows, when the mask test's tables lie in memory; 0: the tables are resident, on chip as a "
-        "whole, as all designs allow at R = R_ray = 4.",
-        [](auto& c) -> auto& { return c.table_cache; });
     add_leaf_path(all);
     return all;
   }();

@@ -32,7 +32,9 @@ constexpr Case kCases[] = {{Design::None},
                            {Design::Dedup, kCompressed},
                            {Design::Projection, kCompressed},
                            {Design::Comparators, kCompressed},
+                           {Design::BitTable, {.resolution = 3, .ray_resolution = 5, .entries = 16}},
                            {Design::Projection, {.resolution = 6, .ray_resolution = 13}},
+                           {Design::Projection, {.resolution = 8, .ray_resolution = 24}},
                            {Design::Comparators, {.resolution = 6, .ray_resolution = 6, .entries = 200}}};
 
 std::string name_of(const Case& c) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "model/pipeline/table_lines.h"
 #include "tests/pipeline/world.h"
 
 namespace ctu::test {
@@ -225,6 +226,42 @@ TEST(Timing, a_table_cache_that_holds_all_lines_misses_each_once_and_a_small_one
   EXPECT_GT(counter(small, "table_fetch.evictions"), 0u);
   EXPECT_GT(counter(small, "memory.table_requests"), lines.size());
   EXPECT_GT(small.cycles, large.cycles);
+}
+
+TEST(TableLayout, rows_lie_apart_behind_the_spilled_entries_and_cross_no_line_they_need_not) {
+  const std::pair<Design, cull::MaskOptions> cases[] = {
+      {Design::Dedup, {}},
+      {Design::MaskLut, {.entries = 16}},
+      {Design::Projection, {.resolution = 6, .ray_resolution = 7, .entries = 16}},
+      {Design::Dedup, {.resolution = 3, .ray_resolution = 4, .entries = 16}},
+      {Design::MaskLut, {.resolution = 7, .ray_resolution = 7}}};
+  for (const auto& [design, options] : cases) {
+    SCOPED_TRACE(std::string(cull::to_string(design)) + ", R " + std::to_string(options.resolution));
+    World world(stacked_leaves(2, 3), design, {}, options);
+    UnitConfig config = world.config();
+    config.memory.line_bytes = 32;
+    const cull::OnChipTables tables(world.tester(), cull::TableRows::All, 3);
+    const pipeline::UnitImage image(world.image(), world.tester(), false);
+    const pipeline::MemoryMap map(config, image);
+    const pipeline::TableLayout layout(config, tables, map, image.compressed());
+    ASSERT_GE(map.table_base, image.end() + static_cast<std::uint64_t>(config.unit.contexts * image.stack_bound() * 8));
+    std::uint64_t free_from = map.table_base;
+    for (std::size_t t = 0; t < tables.tables().size(); ++t) {
+      const bool by_bit = design == Design::Dedup && options.entries > 0 && t == 1;
+      const std::uint64_t bytes = by_bit ? 1 : (tables.tables()[t].row_bits + 7) / 8;
+      for (std::uint32_t row = 0; row < tables.tables()[t].rows; row += 1 + row / 64) {
+        const auto span = layout.bytes({static_cast<std::uint8_t>(t), row}, 0);
+        ASSERT_GE(span.first, free_from);
+        ASSERT_EQ(span.last - span.first + 1, bytes);
+        ASSERT_EQ(span.last / 32 - span.first / 32 + 1, (bytes + 31) / 32);
+        free_from = span.last + 1;
+      }
+      if (by_bit) {
+        EXPECT_EQ(layout.bytes({1, 1}, 15).first, layout.bytes({1, 1}, 0).first + 1);
+      }
+    }
+    EXPECT_GE(layout.end(), free_from);
+  }
 }
 
 TEST(Timing, a_ray_that_the_unit_does_not_accept_takes_its_set_up_and_two_hops) {
