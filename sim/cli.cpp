@@ -62,6 +62,7 @@ struct Parsed {
   CompareArgs compare;
   CullingArgs culling;
   HeatmapArgs heatmap;
+  TablesArgs tables;
   TraceArgs trace;
   UnitArgs config;
   bool config_plain = false;
@@ -128,6 +129,20 @@ void add_heatmap(CLI::App& app, Parsed& parsed) {
   command->callback([&] { parsed.exit_code = heatmap_command(parsed.heatmap); });
 }
 
+void add_tables(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand("tables", "bits on chip of each mask-test design, by the rows that are there");
+  TablesArgs& args = parsed.tables;
+  command->add_option("--r", args.resolution, "R: cells per axis of an object mask, 2..8")->capture_default_str();
+  command->add_option("--r-ray", args.ray_resolution, "R_ray: cells per axis of the ray's key; 0: as --r")
+      ->capture_default_str();
+  command->add_option("--entries", args.entries, "of the compression LUT; 0: object masks are not compressed")
+      ->capture_default_str();
+  command->add_option("--projection-tables", args.projection_tables, "3, or 1 that is read three times a lane")
+      ->capture_default_str();
+  command->add_flag("--markdown", args.markdown, "print the rows of a Markdown table");
+  command->callback([&] { parsed.exit_code = tables_command(parsed.tables); });
+}
+
 void add_trace(CLI::App& app, Parsed& parsed) {
   auto* command = app.add_subcommand("trace", "look into trace files");
   command->require_subcommand(1);
@@ -185,6 +200,7 @@ int run_cli(int argc, const char* const* argv) {
   add_compare(app, parsed);
   add_culling(app, parsed);
   add_heatmap(app, parsed);
+  add_tables(app, parsed);
   add_trace(app, parsed);
   add_config(app, parsed);
   add_bench(app, parsed);

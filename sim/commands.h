@@ -78,6 +78,14 @@ struct HeatmapArgs {
   std::uint32_t range = 0;  ///< intersections at the bright end; 0: the 99th percentile without culling
 };
 
+struct TablesArgs {
+  int resolution = 4;
+  int ray_resolution = 0;  ///< 0: as resolution
+  int entries = 0;         ///< of the compression LUT; 0: masks are not compressed
+  int projection_tables = 3;
+  bool markdown = false;
+};
+
 struct TraceArgs {
   std::string trace;
   std::string output;  ///< slice
@@ -95,6 +103,7 @@ int run_command(const RunArgs& args);
 int compare_command(const CompareArgs& args);
 int culling_command(const CullingArgs& args);
 int heatmap_command(const HeatmapArgs& args);
+int tables_command(const TablesArgs& args);
 int trace_info_command(const TraceArgs& args);
 int trace_head_command(const TraceArgs& args);
 int trace_slice_command(const TraceArgs& args);

@@ -7,23 +7,16 @@
 #include "model/cull/table_limit.h"
 
 namespace ctu::cull {
-namespace {
-
-std::size_t checked_words(int ray_resolution, int entries) {
-  const std::uint64_t words =
-      std::uint64_t{key_count(ray_resolution)} * static_cast<std::uint64_t>(words_of_bit_row(entries));
-  require_table_fits("bit table", ray_resolution, "R_ray^6 rows of " + std::to_string(entries) + " bits", 8 * words,
+void BitTable::require_fits(int ray_resolution, int entries) {
+  require_table_fits("bit table", ray_resolution, "R_ray^6 rows of " + std::to_string(entries) + " bits",
+                     8 * std::uint64_t{key_count(ray_resolution)} * static_cast<unsigned>(words_of_bit_row(entries)),
                      "choose a smaller R_ray or fewer entries, or the design `projection`, which reads R_ray^4 rows");
-  return static_cast<std::size_t>(words);
 }
 
-}  // namespace
-
 BitTable::BitTable(const CompressionLut& lut, int ray_resolution)
-    : ray_resolution_(ray_resolution),
-      entries_(lut.entries()),
-      words_(words_of_bit_row(lut.entries())),
-      bits_(checked_words(ray_resolution, lut.entries())) {
+    : ray_resolution_(ray_resolution), entries_(lut.entries()), words_(words_of_bit_row(lut.entries())) {
+  require_fits(ray_resolution, lut.entries());
+  bits_.resize(static_cast<std::size_t>(rows()) * static_cast<std::size_t>(words_));
   const ProjectionTable ray_masks(lut.resolution(), ray_resolution);
   const BitRowMaker bit_rows(lut);
   std::vector<std::uint64_t> ray_mask(static_cast<std::size_t>(lut.words()));

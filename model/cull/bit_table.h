@@ -15,6 +15,7 @@ class BitTable {
  public:
   /// Throws Error before any work when the rows do not fit the memory.
   BitTable(const CompressionLut& lut, int ray_resolution);
+  static void require_fits(int ray_resolution, int entries);
   int ray_resolution() const { return ray_resolution_; }
   int entries() const { return entries_; }
   std::uint32_t rows() const { return key_count(ray_resolution_); }

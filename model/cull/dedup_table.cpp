@@ -8,26 +8,21 @@
 #include "model/cull/table_limit.h"
 
 namespace ctu::cull {
-namespace {
-
-/// Ids, and the most masks and bit rows that there can be: a key and its reverse share theirs.
-std::size_t checked_keys(int resolution, int ray_resolution, const CompressionLut* lut) {
+void DedupTable::require_fits(int resolution, int ray_resolution, int entries) {
+  // Ids, and the most masks and bit rows that there can be: a key and its reverse share theirs.
   const std::uint64_t keys = key_count(ray_resolution);
   const auto cells = static_cast<std::uint64_t>(ray_resolution * ray_resolution * ray_resolution);
-  const int row_words = words_per_mask(resolution) + (lut == nullptr ? 0 : words_of_bit_row(lut->entries()));
-  const std::uint64_t bytes = 4 * keys + 8 * static_cast<std::uint64_t>(row_words) * ((keys + cells) / 2);
+  const int row_words = words_per_mask(resolution) + words_of_bit_row(entries);
   require_table_fits("deduplicated ray masks", ray_resolution,
-                     "R_ray^6 numbers and up to half as many masks of R = " + std::to_string(resolution), bytes,
+                     "R_ray^6 numbers and up to half as many masks of R = " + std::to_string(resolution),
+                     4 * keys + 8 * static_cast<std::uint64_t>(row_words) * ((keys + cells) / 2),
                      "choose a smaller R_ray, or the design `projection`, which reads R_ray^4 rows");
-  return static_cast<std::size_t>(keys);
 }
 
-}  // namespace
-
 DedupTable::DedupTable(int resolution, int ray_resolution, const CompressionLut* lut)
-    : ray_resolution_(ray_resolution),
-      row_words_(words_per_mask(resolution)),
-      ids_(checked_keys(resolution, ray_resolution, lut)) {
+    : ray_resolution_(ray_resolution), row_words_(words_per_mask(resolution)) {
+  require_fits(resolution, ray_resolution, lut == nullptr ? 0 : lut->entries());
+  ids_.resize(key_count(ray_resolution));
   const ProjectionTable ray_masks(resolution, ray_resolution);
   MaskNumbering numbering(row_words_);
   std::vector<std::uint64_t> mask(static_cast<std::size_t>(row_words_));

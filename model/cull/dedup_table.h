@@ -17,6 +17,8 @@ class DedupTable {
  public:
   /// `lut`: null for rows that are masks. Throws Error before any work when the table might not fit the memory.
   DedupTable(int resolution, int ray_resolution, const CompressionLut* lut);
+  /// `entries`: of the LUT, 0: none.
+  static void require_fits(int resolution, int ray_resolution, int entries);
   int ray_resolution() const { return ray_resolution_; }
   std::uint32_t distinct() const { return distinct_; }
   std::uint32_t id(std::uint32_t key_number) const { return ids_[key_number]; }

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "model/base/error.h"
+#include "model/cull/mask_mirror.h"
 
 namespace ctu::cull {
 namespace {
@@ -59,7 +60,7 @@ OnChipTables::OnChipTables(Design design, const MaskOptions& options, int entrie
     case Design::Dedup:
       ands_masks = entries == 0;
       number_rows(rows, ands_masks);
-      add_dedup(*dedup, mask_bits, entries);
+      add_dedup(*dedup, r, entries);
       break;
     case Design::Projection:
       number_rows(rows, true);
@@ -101,30 +102,35 @@ void OnChipTables::add_projections(int row_bits, int projection_tables) {
   for (const char* axes : {"xy", "yz", "xz"}) add(std::string("projections ") + axes, rows, row_bits);
 }
 
-/// Numbers the masks of the rows that are there anew: of mirrored ones only the canonical key's is kept.
-void OnChipTables::add_dedup(const DedupTable& dedup, int mask_bits, int entries) {
-  std::uint32_t distinct = dedup.distinct();
-  if (numbering_ == Numbering::ByKey) {
-    id_of_row_ = dedup.ids();
-  } else {
-    std::vector<std::uint32_t> new_number(distinct, kNoRow);
-    distinct = 0;
-    id_of_row_.assign(rows_by_key(), kNoRow);
-    for (std::uint32_t number = 0; number < key_count(n_); ++number) {
-      const CellKey key = numbered_key(number, n_);
-      const std::uint32_t row = row_of(key);
-      if (row == kNoRow || id_of_row_[row] != kNoRow) continue;
-      const CellKey canonical = numbering_ == Numbering::Mirrored
-                                    ? mirror_fold_.fold({{pair(key, 0), pair(key, 1), pair(key, 2)}}).canonical
-                                    : key;
-      std::uint32_t& id = new_number[dedup.id(key_number(canonical, n_))];
-      if (id == kNoRow) id = distinct++;
-      id_of_row_[row] = id;
+std::uint32_t OnChipTables::number_canonical_masks(const DedupTable& dedup, int resolution) {
+  id_of_row_.assign(rows_by_key(), kNoRow);
+  std::vector<std::uint32_t> new_number(dedup.distinct(), kNoRow);
+  MirrorNumbering mirror_images(resolution);
+  std::uint32_t distinct = 0;
+  for (std::uint32_t number = 0; number < key_count(n_); ++number) {
+    const CellKey key = numbered_key(number, n_);
+    const std::uint32_t row = row_of(key);
+    if (row == kNoRow || id_of_row_[row] != kNoRow) continue;
+    const std::uint32_t old = dedup.id(number);
+    if (new_number[old] == kNoRow) {
+      new_number[old] = numbering_ == Numbering::Mirrored ? mirror_images.number_of(dedup.row(old)).number : distinct;
+      ++distinct;
     }
+    id_of_row_[row] = new_number[old];
   }
-  add("ids", id_of_row_.size(), number_bits(distinct));
+  return numbering_ == Numbering::Mirrored ? mirror_images.count() : distinct;
+}
+
+void OnChipTables::add_dedup(const DedupTable& dedup, int resolution, int entries) {
+  std::uint32_t distinct = dedup.distinct();
+  if (numbering_ == Numbering::ByKey)
+    id_of_row_ = dedup.ids();
+  else
+    distinct = number_canonical_masks(dedup, resolution);
+  const int mirror_bits = numbering_ == Numbering::Mirrored ? 3 : 0;
+  add("ids", id_of_row_.size(), number_bits(distinct) + mirror_bits);
   if (entries == 0)
-    add("distinct masks", distinct, mask_bits);
+    add("distinct masks", distinct, resolution * resolution * resolution);
   else
     add("bit rows", distinct, entries);
 }

@@ -9,8 +9,9 @@
 //
 // Rows are numbered as TableRows says: All by key number (key_number.h; projections by begin of the first axis, begin
 // of the second, end, end), Folded and Reachable by MirrorFold where rows are masks and by ReverseFold where they are
-// bit rows (key_fold.h). A projection has no row that a ray from outside cannot reach: it does not see the axis on
-// which the ray enters.
+// bit rows (key_fold.h). Where `ids` are folded and rows are masks, mirror images share an id too, and three bits
+// beside the id say on which axes the row is mirrored. A projection has no row that a ray from outside cannot reach: it
+// does not see the axis on which the ray enters.
 #pragma once
 
 #include <cstdint>
@@ -89,7 +90,9 @@ class OnChipTables {
     tables_.push_back({std::move(name), rows, static_cast<std::uint32_t>(row_bits)});
   }
   void add_projections(int row_bits, int projection_tables);
-  void add_dedup(const DedupTable& dedup, int mask_bits, int entries);
+  void add_dedup(const DedupTable& dedup, int resolution, int entries);
+  /// Numbers the masks of the rows that are there anew, mirror images alike; how many that makes.
+  std::uint32_t number_canonical_masks(const DedupTable& dedup, int resolution);
   void number_rows(TableRows rows, bool rows_are_masks);
   std::uint32_t rows_by_key() const;
 

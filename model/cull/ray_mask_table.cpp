@@ -99,24 +99,23 @@ void sweep_all(const AxisSweeps& sweeps, int n, std::uint64_t* row) {
               sweep_row<R>(sweeps.of(bx, ex), sweeps.of(by, ey), sweeps.of(bz, ez), row);
 }
 
-std::uint32_t checked_rows(int resolution, int ray_resolution) {
+}  // namespace
+
+void RayMaskTable::require_fits(int resolution, int ray_resolution) {
   validate({.resolution = resolution, .ray_resolution = ray_resolution});
-  const std::uint64_t rows = key_count(ray_resolution);
   require_table_fits(
       "ray-mask table", ray_resolution, "R_ray^6 masks of R = " + std::to_string(resolution),
-      8 * rows * static_cast<std::uint64_t>(words_per_mask(resolution)),
+      8 * std::uint64_t{key_count(ray_resolution)} * static_cast<unsigned>(words_per_mask(resolution)),
       "choose a smaller R_ray, or the design `projection`, which gives the same masks from R_ray^4 rows");
-  return static_cast<std::uint32_t>(rows);
 }
-
-}  // namespace
 
 RayMaskTable::RayMaskTable(int resolution, int ray_resolution)
     : resolution_(resolution),
       ray_resolution_(ray_resolution),
       words_(words_per_mask(resolution)),
-      rows_(checked_rows(resolution, ray_resolution)),
-      bits_(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(words_)) {
+      rows_(key_count(ray_resolution)) {
+  require_fits(resolution, ray_resolution);
+  bits_.resize(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(words_));
   const AxisSweeps sweeps(resolution, ray_resolution);
   with_resolution(resolution, [&](auto r) { sweep_all<r()>(sweeps, ray_resolution_, bits_.data()); });
 }

@@ -13,7 +13,9 @@ namespace ctu::cull {
 /// R_ray^6 rows of R^3 bits, in the order of key numbers: begin x fastest, then begin y, z, end x, y, z.
 class RayMaskTable {
  public:
+  /// Throws Error, before any work, when R or R_ray is out of range or the rows do not fit the memory.
   RayMaskTable(int resolution, int ray_resolution);
+  static void require_fits(int resolution, int ray_resolution);
   int resolution() const { return resolution_; }
   int ray_resolution() const { return ray_resolution_; }
   int words() const { return words_; }

@@ -6,11 +6,10 @@
 #include <algorithm>
 
 #include "model/base/error.h"
+#include "model/cull/mask_mirror.h"
 
 namespace ctu::cull {
 namespace {
-
-constexpr Design kTabled[] = {Design::MaskLut, Design::Dedup, Design::Projection};
 
 std::shared_ptr<const CompressionLut> lut_of(int resolution, int entries) {
   // Any masks will do: numbers in the first word.
@@ -22,25 +21,57 @@ std::shared_ptr<const CompressionLut> lut_of(int resolution, int entries) {
   return std::make_shared<const CompressionLut>(resolution, masks);
 }
 
-std::uint64_t bits_of(Design design, int r, int ray, int projection_tables = 3) {
-  return OnChipTables(MaskTester(design, {.resolution = r, .ray_resolution = ray}), TableRows::All, projection_tables)
-      .bits();
+/// Bits on chip without the tables themselves.
+std::uint64_t bits_of_design(Design design, const MaskOptions& options, TableRows rows, int projection_tables = 3) {
+  return OnChipTables(design, options, options.entries, nullptr, rows, projection_tables).bits();
 }
 
-TEST(OnChipTables, take_the_bits_of_the_designs_table) {
+TEST(OnChipTables, take_the_closed_forms_of_every_resolution) {
+  for (const int r : {2, 3, 4, 6, 8})
+    for (int n = r; n <= 3 * r; ++n)
+      for (const int entries : {0, 16, 256, 4096}) {
+        SCOPED_TRACE("R " + std::to_string(r) + ", R_ray " + std::to_string(n) + ", entries " +
+                     std::to_string(entries));
+        const MaskOptions options{.resolution = r, .ray_resolution = n, .entries = entries};
+        const auto bits = [&](Design design, TableRows rows, int tables = 3) {
+          return bits_of_design(design, options, rows, tables);
+        };
+        // n^2 pairs of cells on an axis; classes under reversal and mirroring as in key_fold_test.cpp.
+        const auto axis = static_cast<std::uint64_t>(n), columns = static_cast<std::uint64_t>(entries);
+        const auto square = static_cast<std::uint64_t>(r * r), cells = square * static_cast<std::uint64_t>(r);
+        const std::uint64_t pairs = axis * axis, fixed = pairs + axis % 2, corners = pairs * axis;
+        const std::uint64_t lut = columns * cells;
+        ASSERT_EQ(bits(Design::MaskLut, TableRows::All), pairs * pairs * pairs * cells + lut);
+        ASSERT_EQ(bits(Design::MaskLut, TableRows::Folded), (fixed * fixed * fixed + 8 * corners) / 16 * cells + lut);
+        ASSERT_EQ(bits(Design::Projection, TableRows::All, 1), pairs * pairs * square + lut);
+        ASSERT_EQ(bits(Design::Projection, TableRows::All), 3 * pairs * pairs * square + lut);
+        ASSERT_EQ(bits(Design::Projection, TableRows::Folded), 3 * ((fixed * fixed + 4 * pairs) / 8) * square + lut);
+        ASSERT_EQ(bits(Design::Comparators, TableRows::Reachable), lut);
+        ASSERT_EQ(bits(Design::Ideal, TableRows::All), 0u);
+        ASSERT_EQ(bits(Design::BitTable, TableRows::All), pairs * pairs * pairs * columns);
+        ASSERT_EQ(bits(Design::BitTable, TableRows::Folded), corners * (corners + 1) / 2 * columns);
+      }
+}
+
+TEST(OnChipTables, take_the_sizes_that_the_design_page_states) {
   constexpr std::uint64_t kKiB = 8 * 1024;
-  EXPECT_EQ(bits_of(Design::MaskLut, 4, 4), 32 * kKiB);
-  EXPECT_EQ(bits_of(Design::MaskLut, 4, 8), 2048 * kKiB);
-  EXPECT_EQ(bits_of(Design::MaskLut, 6, 6), 46656u * 216);
-  EXPECT_EQ(bits_of(Design::Projection, 4, 4, 1), kKiB / 2);
-  EXPECT_EQ(bits_of(Design::Projection, 4, 4), 3 * kKiB / 2);
-  EXPECT_EQ(bits_of(Design::Projection, 4, 8), 24 * kKiB);
-  EXPECT_EQ(bits_of(Design::Projection, 6, 6, 1), 1296u * 36);
-  EXPECT_EQ(bits_of(Design::Projection, 8, 8), 96 * kKiB);
-  EXPECT_EQ(bits_of(Design::Projection, 6, 12, 1), 20736u * 36);
-  EXPECT_EQ(bits_of(Design::Dedup, 4, 4), 4096u * 11 + 1270u * 64);
-  EXPECT_EQ(bits_of(Design::Dedup, 4, 8), 262144u * 15 + 20770u * 64);
-  for (const Design design : {Design::None, Design::Ideal, Design::Comparators}) EXPECT_EQ(bits_of(design, 4, 4), 0u);
+  const auto bits = [](Design design, int r, int n, int tables = 3) {
+    return bits_of_design(design, {.resolution = r, .ray_resolution = n}, TableRows::All, tables);
+  };
+  EXPECT_EQ(bits(Design::MaskLut, 4, 4), 32 * kKiB);
+  EXPECT_EQ(bits(Design::MaskLut, 4, 8), 2048 * kKiB);
+  EXPECT_EQ(bits(Design::MaskLut, 6, 6), 46656u * 216);
+  EXPECT_EQ(bits(Design::MaskLut, 8, 8), 16 * 1024 * kKiB);
+  EXPECT_EQ(bits(Design::Projection, 4, 4, 1), kKiB / 2);
+  EXPECT_EQ(bits(Design::Projection, 4, 8), 24 * kKiB);
+  EXPECT_EQ(bits(Design::Projection, 6, 6, 1), 1296u * 36);
+  EXPECT_EQ(bits(Design::Projection, 8, 8), 96 * kKiB);
+  EXPECT_EQ(bits(Design::Projection, 6, 12, 1), 20736u * 36);
+  const auto dedup = [](int n) {
+    return OnChipTables(MaskTester(Design::Dedup, {.ray_resolution = n}), TableRows::All, 3).bits();
+  };
+  EXPECT_EQ(dedup(4), 4096u * 11 + 1270u * 64);
+  EXPECT_EQ(dedup(8), 262144u * 15 + 20770u * 64);
 }
 
 TEST(OnChipTables, over_compressed_masks_keep_the_lut_or_bits_for_its_entries) {
@@ -59,7 +90,7 @@ TEST(OnChipTables, a_lane_reads_rows_that_are_there_one_for_each_table_of_its_de
   const auto lut = lut_of(4, 256);
   const CellKey key = numbered_key(4095, 4);
   TableRead reads[kMaxReadsOfLane];
-  for (const Design design : kTabled) {
+  for (const Design design : {Design::MaskLut, Design::Dedup, Design::Projection}) {
     const OnChipTables tables(MaskTester(design, {}), TableRows::All, 3);
     const int count = tables.reads(key, 0, reads);
     ASSERT_EQ(count, static_cast<int>(tables.tables().size()));
@@ -95,30 +126,44 @@ TEST(OnChipTables, folded_and_reachable_rows_take_the_closed_forms) {
   EXPECT_EQ(rows(Design::Projection, TableRows::Reachable, 8), 544u);
 }
 
-TEST(OnChipTables, of_a_deduplicated_table_a_key_reads_the_row_of_its_mask) {
-  // Rows with the same id must have the same mask; mirrored, when masks are.
+TEST(OnChipTables, keys_read_the_same_row_of_distinct_masks_iff_their_masks_are_equal_or_mirror_images) {
   const MaskTester tester(Design::Dedup, {.ray_resolution = 5});
   const DedupTable& dedup = *tester.dedup_table();
+  MirrorNumbering images(4);
   for (const TableRows policy : {TableRows::All, TableRows::Folded, TableRows::Reachable}) {
     SCOPED_TRACE(std::string(to_string(policy)));
     const OnChipTables tables(tester, policy, 3);
-    const MirrorFold<3> fold(5, false);
-    std::vector<std::uint32_t> id_in_row(tables.tables()[1].rows, kNoRow);
+    std::vector<std::uint32_t> mask_in_row(tables.tables()[1].rows, kNoRow);
     for (std::uint32_t number = 0; number < key_count(5); ++number) {
-      const CellKey key = numbered_key(number, 5);
       TableRead reads[kMaxReadsOfLane];
-      const int count = tables.reads(key, 0, reads);
+      const int count = tables.reads(numbered_key(number, 5), 0, reads);
       if (count == -1) continue;
       ASSERT_EQ(count, 2);
       ASSERT_LT(reads[0].row, tables.tables()[0].rows);
       ASSERT_LT(reads[1].row, tables.tables()[1].rows);
-      const auto pair = [&](int axis) { return static_cast<std::uint32_t>(key.begin(axis) + 5 * key.end(axis)); };
-      const CellKey read = policy == TableRows::All ? key : fold.fold({{pair(0), pair(1), pair(2)}}).canonical;
-      std::uint32_t& id = id_in_row[reads[1].row];
-      if (id == kNoRow) id = dedup.id(key_number(read, 5));
-      ASSERT_EQ(id, dedup.id(key_number(read, 5)));
+      const std::uint32_t id = dedup.id(number);
+      const std::uint32_t mask = policy == TableRows::All ? id : images.number_of(dedup.row(id)).number;
+      std::uint32_t& in_row = mask_in_row[reads[1].row];
+      if (in_row == kNoRow) in_row = mask;
+      ASSERT_EQ(in_row, mask);
     }
-    EXPECT_EQ(std::count(id_in_row.begin(), id_in_row.end(), kNoRow), 0);
+    std::sort(mask_in_row.begin(), mask_in_row.end());
+    EXPECT_EQ(std::adjacent_find(mask_in_row.begin(), mask_in_row.end()), mask_in_row.end());
+    EXPECT_EQ(std::count(mask_in_row.begin(), mask_in_row.end(), kNoRow), 0);
+  }
+}
+
+TEST(MirrorNumbering, gives_back_the_mask_from_number_and_axes) {
+  for (const int r : {2, 4, 5}) {
+    const DedupTable dedup(r, r, nullptr);
+    const auto words = static_cast<std::size_t>(words_per_mask(r));
+    MirrorNumbering images(r);
+    for (std::uint32_t id = 0; id < dedup.distinct(); ++id) {
+      const auto [number, axes] = images.number_of(dedup.row(id));
+      const auto mask = mirrored_mask(images.masks().data() + number * words, r, axes);
+      ASSERT_TRUE(std::equal(mask.begin(), mask.end(), dedup.row(id)));
+    }
+    EXPECT_LT(images.count(), dedup.distinct());
   }
 }
 
