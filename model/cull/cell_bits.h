@@ -99,6 +99,24 @@ constexpr Stretch<R> make_stretch() {
 template <int R>
 inline constexpr Stretch<R> kStretch = make_stretch<R>();
 
+/// Sets the cells of layer z whose bits, x + R*y, are set in `layer`.
+template <int R>
+void add_layer(MaskWords<R>& words, int z, std::uint64_t layer) {
+  const int bit = R * R * z;
+  words[bit / 64] |= layer << (bit % 64);
+  if (bit % 64 + R * R > 64) words[bit / 64 + 1] |= layer >> (64 - bit % 64);
+}
+
+/// The cells of layer z as bits x + R*y.
+template <int R>
+std::uint64_t layer_of(const std::uint64_t* mask, int z) {
+  constexpr std::uint64_t kLayer = R == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << (R * R % 64)) - 1;
+  const int bit = R * R * z;
+  std::uint64_t layer = mask[bit / 64] >> (bit % 64);
+  if (bit % 64 + R * R > 64) layer |= mask[bit / 64 + 1] << (64 - bit % 64);
+  return layer & kLayer;
+}
+
 /// cell (x, y, z) = xy(x, y) AND yz(y, z) AND xz(x, z). A pair's matrix has bit i + R*j for cell i of its first axis
 /// and j of its second. By Helly's theorem on the line, sets of cells that are defined by three intervals of ray
 /// time meeting are exactly such products (DESIGN section 4).
@@ -111,12 +129,8 @@ MaskWords<R> and_of_projections(std::uint64_t xy, std::uint64_t yz, std::uint64_
     return bits;
   }();
   MaskWords<R> words{};
-  for (int z = 0; z < R; ++z) {
-    const std::uint64_t slab = xy & kStretch<R>.of[yz >> (R * z) & kRow] & (xz >> (R * z) & kRow) * kEveryRow;
-    const int bit = R * R * z;
-    words[bit / 64] |= slab << (bit % 64);
-    if (bit % 64 + R * R > 64) words[bit / 64 + 1] |= slab >> (64 - bit % 64);
-  }
+  for (int z = 0; z < R; ++z)
+    add_layer<R>(words, z, xy & kStretch<R>.of[yz >> (R * z) & kRow] & (xz >> (R * z) & kRow) * kEveryRow);
   return words;
 }
 

@@ -10,8 +10,8 @@
 
 namespace ctu::cull {
 
-/// The masks of a node's lanes: lane 0's words, the other lanes' behind them; and, when masks are compressed, the lanes'
-/// entries in the compression LUT.
+/// The masks of a node's lanes: lane 0's words, the other lanes' behind them; and, when masks are compressed, the
+/// lanes' entries in the compression LUT.
 struct NodeMasks {
   const std::uint64_t* bits = nullptr;
   const std::uint16_t* index = nullptr;

@@ -13,11 +13,16 @@
 // separates only when its gap exceeds these bounds, so no touched cell is lost; for a box that holds its triangles
 // M = 8, and a cell is marked in vain only when the triangle passes it by some 1e-11 of a cell or less, over the
 // length of the edge or the normal.
+//
+// Where the triangle's bounds lie in one cell along an axis, the triangle lies between the planes of that layer, and it
+// touches a cell of the layer where its projection along the axis touches the cell's: the other two projections and the
+// plane have nothing to add and are left out. Cells of a row, and axes or projections, are worked on side by side.
 #pragma once
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
+#include <cstdint>
+#include <type_traits>
 
 #include "model/cull/cell_bits.h"
 #include "model/numeric/vec3.h"
@@ -28,43 +33,52 @@ struct Bounds {
   Vec3 lower, upper;
 };
 
+/// x, y, z and a lane that carries nothing: the same operation on the three axes at once.
+typedef double Axes __attribute__((vector_size(32)));
+
 /// The map from space to the grid of a box. A flat axis (lower == upper) maps to the middle of cell 0, and whatever
 /// touches that layer is repeated in every cell of the axis.
 template <int R>
 struct BoxGrid {
-  double lower[3], scale[3], shift[3];
+  Axes lower, scale, shift;
   unsigned flat_axes = 0;
 
   explicit BoxGrid(const Bounds& box) {
-    for (int a = 0; a < 3; ++a) {
-      const double extent = static_cast<double>(box.upper[a]) - box.lower[a];
-      const bool flat = !(extent > 0);
-      lower[a] = box.lower[a];
-      scale[a] = flat ? 0 : R / extent;
-      shift[a] = flat ? 0.5 : 0;
-      flat_axes |= flat ? 1u << a : 0;
-    }
+    lower = Axes{box.lower.x, box.lower.y, box.lower.z, 0};
+    const Axes extent = Axes{box.upper.x, box.upper.y, box.upper.z, 0} - lower;
+    scale = extent > 0 ? R / extent : Axes{};
+    shift = extent > 0 ? Axes{} : Axes{0.5, 0.5, 0.5, 0};
+    for (int a = 0; a < 3; ++a) flat_axes |= extent[a] > 0 ? 0 : 1u << a;
   }
   double to_grid(int axis, float x) const { return (x - lower[axis]) * scale[axis] + shift[axis]; }
+  void to_grid(const Vec3& v, Axes& u) const { u = (Axes{v.x, v.y, v.z, 0} - lower) * scale + shift; }
 };
 
-/// Closed cells that meet [low, high] on one axis.
+/// Closed cells that meet [low, high] on each axis, in grid coordinates; one on a flat axis.
 template <int R>
-void closed_cells(double low, double high, int& first, int& last) {
-  constexpr double kMargin = 0x1p-45;
-  first = static_cast<int>(std::ceil(std::clamp(low - kMargin, 0.0, R - 0.5))) - 1;
-  first = first < 0 ? 0 : first;
-  last = static_cast<int>(std::clamp(high + kMargin, 0.0, R - 0.5));
+CellRange closed_cells(const Axes& low, const Axes& high) {
+  typedef std::int32_t Cells __attribute__((vector_size(16)));
+  constexpr double kMargin = 0x1p-45, kMost = R - 0.5;
+  Axes from = low - kMargin, to = high + kMargin;
+  from = from > 0 ? (from < kMost ? from : Axes{} + kMost) : Axes{};
+  to = to > 0 ? (to < kMost ? to : Axes{} + kMost) : Axes{};
+  // ceil(from) - 1: the cell under a border that `from` is on.
+  const Cells floor = __builtin_convertvector(from, Cells), last = __builtin_convertvector(to, Cells);
+  const Cells on_border = __builtin_convertvector(from == __builtin_convertvector(floor, Axes), Cells);
+  const Cells below = floor + on_border, first = below > 0 ? below : Cells{};
+  return {{first[0], first[1], first[2]}, {last[0], last[1], last[2]}};
 }
 
 /// Closed cells that meet a box; all of them along a flat axis. Grows with the box, rounding included.
 template <int R>
 CellRange closed_cells(const BoxGrid<R>& grid, const Bounds& box) {
-  CellRange range;
-  for (int a = 0; a < 3; ++a) {
-    closed_cells<R>(grid.to_grid(a, box.lower[a]), grid.to_grid(a, box.upper[a]), range.first[a], range.last[a]);
-    if ((grid.flat_axes >> a & 1) != 0) range.last[a] = R - 1;
-  }
+  Axes low, high;
+  grid.to_grid(box.lower, low);
+  grid.to_grid(box.upper, high);
+  CellRange range = closed_cells<R>(low, high);
+  if (grid.flat_axes != 0)
+    for (int a = 0; a < 3; ++a)
+      if ((grid.flat_axes >> a & 1) != 0) range.last[a] = R - 1;
   return range;
 }
 
@@ -82,62 +96,130 @@ void add_cells(std::uint64_t* mask, const MaskWords<R>& cells) {
 
 namespace detail {
 
+/// A triangle in grid coordinates.
 struct GridTriangle {
-  double u[3][3];  ///< [vertex][axis]
+  Axes u[3];  ///< vertices
+  Axes low, high;
   double edge_margin, plane_margin;
 };
 
 template <int R>
 GridTriangle to_grid(const BoxGrid<R>& grid, const Vec3& v0, const Vec3& v1, const Vec3& v2) {
   GridTriangle t;
+  grid.to_grid(v0, t.u[0]);
+  grid.to_grid(v1, t.u[1]);
+  grid.to_grid(v2, t.u[2]);
+  t.low = t.u[0] < t.u[1] ? t.u[0] : t.u[1];
+  t.low = t.low < t.u[2] ? t.low : t.u[2];
+  t.high = t.u[0] > t.u[1] ? t.u[0] : t.u[1];
+  t.high = t.high > t.u[2] ? t.high : t.u[2];
   double most = 8;
-  const Vec3* vertices[3] = {&v0, &v1, &v2};
-  for (int v = 0; v < 3; ++v)
-    for (int a = 0; a < 3; ++a) {
-      t.u[v][a] = grid.to_grid(a, (*vertices[v])[a]);
-      most = std::max(most, std::fabs(t.u[v][a]));
-    }
+  for (int a = 0; a < 3; ++a) most = std::max({most, -t.low[a], t.high[a]});
   t.edge_margin = 0x1p-46 * most * most;
   t.plane_margin = 0x1p-43 * most * most * most;
   return t;
 }
 
-/// Bit i + R*j: the projection onto axes (a, b) touches cell (i, j), for cells in the range.
-template <int R>
-std::uint64_t projection_cells(const GridTriangle& t, int a, int b, const CellRange& range) {
-  double na[3], nb[3], least[3], most[3];
-  for (int e = 0; e < 3; ++e) {
-    const double *p = t.u[e], *q = t.u[(e + 1) % 3], *r = t.u[(e + 2) % 3];
-    na[e] = p[b] - q[b];
-    nb[e] = q[a] - p[a];
-    const double edge = na[e] * p[a] + nb[e] * p[b], opposite = na[e] * r[a] + nb[e] * r[b];
-    // The cell's own extent along the normal, from its lower corner.
-    const double below = std::min(na[e], 0.0) + std::min(nb[e], 0.0);
-    const double above = std::max(na[e], 0.0) + std::max(nb[e], 0.0);
-    least[e] = std::min(edge, opposite) - above - t.edge_margin;
-    most[e] = std::max(edge, opposite) - below + t.edge_margin;
+/// The projections onto two axes (a, b), one a lane: x y, y z, x z.
+enum Projection : int { kXy, kYz, kXz };
+inline constexpr int kAcross[3] = {0, 1, 0}, kUp[3] = {1, 2, 2};  ///< a and b
+
+/// The three edges' tests in the three projections: cell (i, j) passes when least <= na * i + nb * j <= most.
+struct EdgeTests {
+  Axes na[3], nb[3], least[3], most[3];  ///< [edge], a lane a projection
+};
+
+inline void make_edge_tests(const GridTriangle& t, EdgeTests& tests) {
+  Axes a[3], b[3];
+  for (int v = 0; v < 3; ++v) {
+    a[v] = __builtin_shufflevector(t.u[v], t.u[v], 0, 1, 0, 3);
+    b[v] = __builtin_shufflevector(t.u[v], t.u[v], 1, 2, 2, 3);
   }
-  std::uint64_t cells = 0;
-  for (int j = range.first[b]; j <= range.last[b]; ++j)
-    for (int i = range.first[a]; i <= range.last[a]; ++i) {
-      bool touched = true;
-      for (int e = 0; e < 3; ++e) {
-        const double corner = na[e] * i + nb[e] * j;
-        touched &= (least[e] <= corner) & (corner <= most[e]);
-      }
-      cells |= static_cast<std::uint64_t>(touched) << (i + R * j);
+  for (int e = 0; e < 3; ++e) {
+    const int q = (e + 1) % 3, r = (e + 2) % 3;
+    const Axes na = b[e] - b[q], nb = a[q] - a[e];
+    const Axes edge = na * a[e] + nb * b[e], opposite = na * a[r] + nb * b[r];
+    // The cell's own extent along the normal, from its lower corner.
+    const Axes below = (na < 0 ? na : Axes{}) + (nb < 0 ? nb : Axes{});
+    const Axes above = (na > 0 ? na : Axes{}) + (nb > 0 ? nb : Axes{});
+    tests.na[e] = na;
+    tests.nb[e] = nb;
+    tests.least[e] = (edge < opposite ? edge : opposite) - above - t.edge_margin;
+    tests.most[e] = (edge > opposite ? edge : opposite) - below + t.edge_margin;
+  }
+}
+
+typedef double Row4 __attribute__((vector_size(32)));
+typedef double Row8 __attribute__((vector_size(64)));
+typedef std::int64_t RowBits4 __attribute__((vector_size(32)));
+typedef std::int64_t RowBits8 __attribute__((vector_size(64)));
+
+/// A row of cells at once, a lane a cell: in R^2 bits of a layer, bit i + R*j is in lane i.
+template <int R>
+struct Rows {
+  using Row = std::conditional_t<(R > 4), Row8, Row4>;
+  using Bits = std::conditional_t<(R > 4), RowBits8, RowBits4>;
+  Row i{};       ///< the cells' numbers
+  Bits bit{};    ///< bit i, of the R cells that there are
+  Bits layer{};  ///< what has been added
+
+  Rows() {
+    for (int lane = 0; lane < R; ++lane) {
+      i[lane] = lane;
+      bit[lane] = std::int64_t{1} << lane;
     }
+  }
+  void add(int j, const Bits& row) { layer |= row << (R * j); }
+  std::uint64_t bits() const {
+    std::uint64_t all = 0;
+    for (unsigned lane = 0; lane < sizeof(Bits) / sizeof(std::int64_t); ++lane)
+      all |= static_cast<std::uint64_t>(layer[lane]);
+    return all;
+  }
+};
+
+/// Bit i + R*j, for the cells of the range: the rectangle of them.
+template <int R>
+std::uint64_t rectangle(const CellRange& range, int a, int b) {
+  const std::uint64_t row = ((std::uint64_t{2} << range.last[a]) - 1) & ~((std::uint64_t{1} << range.first[a]) - 1);
+  std::uint64_t cells = 0;
+  for (int j = range.first[b]; j <= range.last[b]; ++j) cells |= row << (R * j);
   return cells;
 }
 
-/// Removes the cells that the triangle's plane does not touch.
+/// Bit i + R*j: the projection touches cell (i, j), for cells in the range.
 template <int R>
-void keep_cells_on_plane(const GridTriangle& t, MaskWords<R>& cells) {
-  double e1[3], e2[3];
-  for (int a = 0; a < 3; ++a) {
-    e1[a] = t.u[1][a] - t.u[0][a];
-    e2[a] = t.u[2][a] - t.u[0][a];
+std::uint64_t projection_cells(const EdgeTests& tests, int p, const CellRange& range) {
+  Rows<R> rows;
+  for (int j = range.first[kUp[p]]; j <= range.last[kUp[p]]; ++j) {
+    typename Rows<R>::Bits touched = rows.bit;
+    for (int e = 0; e < 3; ++e) {
+      const typename Rows<R>::Row corner = tests.na[e][p] * rows.i + tests.nb[e][p] * j;
+      touched &= (corner >= tests.least[e][p]) & (corner <= tests.most[e][p]);
+    }
+    rows.add(j, touched);
   }
+  return rows.bits() & rectangle<R>(range, kAcross[p], kUp[p]);
+}
+
+/// The cells of the range that the triangle's three projections touch.
+template <int R>
+MaskWords<R> cells_of_projections(const GridTriangle& t, const CellRange& range) {
+  EdgeTests tests;
+  make_edge_tests(t, tests);
+  std::uint64_t cells[3];
+  for (const Projection p : {kXy, kYz, kXz}) {
+    const int a = kAcross[p], b = kUp[p];
+    const bool strip = range.first[a] == range.last[a] || range.first[b] == range.last[b];
+    cells[p] = strip ? rectangle<R>(range, a, b) : projection_cells<R>(tests, p, range);
+  }
+  return and_of_projections<R>(cells[kXy], cells[kYz], cells[kXz]);
+}
+
+/// Of the cells in the range, those that the triangle's plane touches.
+template <int R>
+MaskWords<R> cells_on_plane(const GridTriangle& t, const CellRange& range) {
+  const Axes e1 = t.u[1] - t.u[0], e2 = t.u[2] - t.u[0];
   const double n[3] = {e1[1] * e2[2] - e1[2] * e2[1], e1[2] * e2[0] - e1[0] * e2[2], e1[0] * e2[1] - e1[1] * e2[0]};
   double plane = 0, below = 0, above = 0;
   for (int a = 0; a < 3; ++a) {
@@ -146,12 +228,16 @@ void keep_cells_on_plane(const GridTriangle& t, MaskWords<R>& cells) {
     above += std::max(n[a], 0.0);
   }
   const double least = plane - above - t.plane_margin, most = plane - below + t.plane_margin;
-  for (int w = 0; w < kWords<R>; ++w)
-    for (std::uint64_t rest = cells[w]; rest != 0; rest &= rest - 1) {
-      const int cell = 64 * w + std::countr_zero(rest);
-      const double corner = n[0] * (cell % R) + n[1] * (cell / R % R) + n[2] * (cell / (R * R));
-      if (!(least <= corner && corner <= most)) cells[w] &= ~(rest & (~rest + 1));
+  MaskWords<R> cells{};
+  for (int z = range.first[2]; z <= range.last[2]; ++z) {
+    Rows<R> rows;
+    for (int y = range.first[1]; y <= range.last[1]; ++y) {
+      const typename Rows<R>::Row corner = n[0] * rows.i + n[1] * y + n[2] * z;
+      rows.add(y, rows.bit & (corner >= least) & (corner <= most));
     }
+    add_layer<R>(cells, z, rows.bits());
+  }
+  return cells;
 }
 
 /// Repeats cell 0's layer of a flat axis in every layer.
@@ -173,27 +259,24 @@ void repeat_layer(MaskWords<R>& cells, int axis) {
 /// the box (what sticks out is taken to the nearest cells by its bounds).
 template <int R>
 void add_triangle(const BoxGrid<R>& grid, const Vec3& v0, const Vec3& v1, const Vec3& v2, std::uint64_t* mask) {
-  Bounds bounds;
-  for (int a = 0; a < 3; ++a) {
-    bounds.lower[a] = std::min({v0[a], v1[a], v2[a]});
-    bounds.upper[a] = std::max({v0[a], v1[a], v2[a]});
-  }
-  CellRange range = closed_cells<R>(grid, bounds);
-  const MaskWords<R> box = box_of_cells<R>(range);
-  if (is_one_cell(range, grid.flat_axes)) return add_cells<R>(mask, box);
-  if (holds<R>(mask, box)) return;
-
-  for (int a = 0; a < 3; ++a)
-    if ((grid.flat_axes >> a & 1) != 0) range.last[a] = 0;
   const detail::GridTriangle triangle = detail::to_grid<R>(grid, v0, v1, v2);
-  MaskWords<R> cells = and_of_projections<R>(detail::projection_cells<R>(triangle, 0, 1, range),
-                                             detail::projection_cells<R>(triangle, 1, 2, range),
-                                             detail::projection_cells<R>(triangle, 0, 2, range));
-  if (grid.flat_axes == 0)
-    for (int w = 0; w < kWords<R>; ++w) cells[w] &= ~mask[w];  // what is known need not meet the plane test
-  detail::keep_cells_on_plane<R>(triangle, cells);
-  for (int a = 0; a < 3; ++a)
-    if ((grid.flat_axes >> a & 1) != 0) detail::repeat_layer<R>(cells, a);
+  const CellRange range = closed_cells<R>(triangle.low, triangle.high);
+  MaskWords<R> cells = box_of_cells<R>(range);
+  // Along the others the triangle lies in one cell.
+  const int thick_axes =
+      (range.first[0] != range.last[0]) + (range.first[1] != range.last[1]) + (range.first[2] != range.last[2]);
+  if (thick_axes > 1) {
+    if (grid.flat_axes == 0 && holds<R>(mask, cells)) return;
+    cells = detail::cells_of_projections<R>(triangle, range);
+  }
+  if (thick_axes > 2) {
+    if (holds<R>(mask, cells)) return;  // what is known need not meet the plane test
+    const MaskWords<R> on_plane = detail::cells_on_plane<R>(triangle, range);
+    for (int w = 0; w < kWords<R>; ++w) cells[w] &= on_plane[w];
+  }
+  if (grid.flat_axes != 0)
+    for (int a = 0; a < 3; ++a)
+      if ((grid.flat_axes >> a & 1) != 0) detail::repeat_layer<R>(cells, a);
   add_cells<R>(mask, cells);
 }
 
