@@ -6,10 +6,15 @@
 
 #include "model/base/error.h"
 #include "model/cull/distinct_masks.h"
+#include "model/cull/mask_refinement.h"
+#include "model/cull/mask_sample.h"
 #include "model/cull/mask_words.h"
 
 namespace ctu::cull {
 namespace {
+
+// Different masks that the refined selection works on; docs/compression.md says what more of them would give.
+constexpr std::size_t kSampledMasks = 8192, kSampledMasksPerEntry = 16;
 
 /// The masks that rank first by weight times set bits; equal ranks in the order of the tree. The full mask takes no
 /// place: the LUT has it anyway.
@@ -39,9 +44,15 @@ CompressionLut select_masks(const ObjectMasks& masks, const ChildWeights& weight
   if (entries < kMinEntries || entries > kMaxEntries)
     throw Error("entries of the compression LUT", "is " + std::to_string(entries),
                 "choose a value from " + std::to_string(kMinEntries) + " to " + std::to_string(kMaxEntries));
+  const auto count = static_cast<std::size_t>(entries - 1);
+  if (selection == Selection::Refined) {
+    const std::size_t enough = std::max(kSampledMasks, kSampledMasksPerEntry * static_cast<std::size_t>(entries));
+    const DistinctMasks sample = sample_masks(masks, weights, enough);
+    const std::vector<std::uint64_t> start = top_masks(sample, sample.sum, masks.resolution, count);
+    return CompressionLut(masks.resolution, refine_masks(masks.resolution, sample, start, entries));
+  }
   const DistinctMasks distinct = distinct_masks(masks, weights);
   const std::vector<double>& ranks = selection == Selection::TopPerNode ? distinct.largest : distinct.sum;
-  const auto count = static_cast<std::size_t>(entries - 1);
   return CompressionLut(masks.resolution, top_masks(distinct, ranks, masks.resolution, count));
 }
 

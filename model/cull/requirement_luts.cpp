@@ -39,17 +39,22 @@ void RequirementLuts::fill(const CompressionLut& lut, std::size_t chunk) {
   }
 }
 
-int RequirementLuts::find(const std::uint64_t* mask) const {
-  for (std::size_t first = 0;; first += kBlockWords) {  // ends at the full mask, which is in every list
+int RequirementLuts::find(const std::uint64_t* mask, int first) const {
+  constexpr int kBlockBits = 64 * kBlockWords;
+  for (int block = first / kBlockBits;; ++block) {  // ends at the full mask, which is in every list
     std::uint64_t both[kBlockWords] = {~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0}, ~std::uint64_t{0}};
-    const std::uint64_t* lists = lists_.data() + first;
+    const std::uint64_t* lists = lists_.data() + static_cast<std::size_t>(block) * kBlockWords;
     for (const Place& place : places_) {
       const std::uint64_t* list = lists + pattern(mask, place) * list_words_;
       for (std::size_t w = 0; w < kBlockWords; ++w) both[w] &= list[w];
       lists += list_words_ << chunk_bits_;
     }
-    for (std::size_t w = 0; w < kBlockWords; ++w)
-      if (both[w] != 0) return static_cast<int>(64 * (first + w)) + std::countr_zero(both[w]);
+    for (int w = 0; w < static_cast<int>(kBlockWords); ++w) {
+      const int entry = block * kBlockBits + 64 * w;
+      if (entry + 64 <= first) continue;
+      if (entry < first) both[w] = both[w] >> (first - entry) << (first - entry);
+      if (both[w] != 0) return entry + std::countr_zero(both[w]);
+    }
   }
 }
 

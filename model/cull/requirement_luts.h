@@ -20,7 +20,10 @@ class RequirementLuts {
   explicit RequirementLuts(const CompressionLut& lut, int chunk_bits = 8);
 
   /// Algorithm 3: the same entry as lut.tightest(mask), for any mask of the LUT's resolution.
-  int find(const std::uint64_t* mask) const;
+  int find(const std::uint64_t* mask) const { return find(mask, 0); }
+
+  /// The tightest entry among those from number `first` on.
+  int find(const std::uint64_t* mask, int first) const;
 
   int chunk_bits() const { return chunk_bits_; }
   int chunks() const { return static_cast<int>(places_.size()); }
