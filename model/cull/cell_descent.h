@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "model/cull/mask_clusters.h"
@@ -15,7 +16,7 @@ class CellDescent {
   using Words = MaskWords<R>;
 
   explicit CellDescent(const MaskClusters<R>& clusters)
-      : points_(clusters.points()), entries_(clusters.entries()), members_(clusters.members()) {
+      : clusters_(clusters), points_(clusters.points()), entries_(clusters.entries()), members_(clusters.members()) {
     for (std::size_t i = 0; i < points_.size(); ++i) home_.push_back(clusters.home(i));
   }
 
@@ -80,15 +81,24 @@ class CellDescent {
     return weight;
   }
 
+  /// Numbers of those that would gain most for themselves.
+  static std::vector<std::uint32_t> largest(const std::vector<NearMiss>& misses) {
+    std::vector<std::pair<double, std::uint32_t>> loss;
+    for (std::uint32_t i = 0; i < misses.size(); ++i)
+      loss.emplace_back(-misses[i].weight * (misses[i].room - misses[i].cells), i);
+    const std::size_t count = std::min(misses.size(), kMostCandidates);
+    std::partial_sort(loss.begin(), loss.begin() + static_cast<std::ptrdiff_t>(count), loss.end());
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t i = 0; i < count; ++i) numbers.push_back(loss[i].second);
+    return numbers;
+  }
+
   Growth best_growth(std::uint32_t e) const {
     Growth best;
     best.misses = near_misses(e);
-    std::vector<NearMiss>& misses = best.misses;
-    std::stable_sort(misses.begin(), misses.end(), [](const NearMiss& a, const NearMiss& b) {
-      return a.weight * (a.room - a.cells) > b.weight * (b.room - b.cells);
-    });
+    const std::vector<NearMiss>& misses = best.misses;
     const double weight = weight_of(e);
-    for (std::size_t c = 0; c < std::min(misses.size(), kMostCandidates); ++c) {
+    for (const std::uint32_t c : largest(misses)) {
       const NearMiss& candidate = misses[c];
       double gain = -weight * candidate.cells;
       for (const NearMiss& miss : misses)
@@ -102,9 +112,12 @@ class CellDescent {
     return best;
   }
 
-  /// The tightest other entry that holds the point. Entries keep no order while their cells change.
-  std::uint32_t next_home(std::uint32_t e, const Point& point) const {
-    std::uint32_t next = static_cast<std::uint32_t>(entries_.size()) - 1;
+  /// Another entry that holds the point: what was the tightest before cells changed, or else what is now.
+  std::uint32_t next_home(std::uint32_t e, std::uint32_t i) const {
+    const Point& point = points_[i];
+    std::uint32_t next = clusters_.next(i);
+    if (next != e && holds<R>(entries_[next].mask, point.mask)) return next;
+    next = static_cast<std::uint32_t>(entries_.size()) - 1;
     for (std::uint32_t other = 0; other + 1 < entries_.size(); ++other)
       if (other != e && entries_[other].bits < entries_[next].bits && holds<R>(entries_[other].mask, point.mask))
         next = other;
@@ -116,7 +129,7 @@ class CellDescent {
     double price[MaskClusters<R>::kCells] = {};  // of the members that need a cell
     double weight = 0;
     for (const std::uint32_t i : members_[e]) {
-      const std::uint32_t next = next_home(e, points_[i]);
+      const std::uint32_t next = next_home(e, i);
       best.next.push_back(next);
       weight += points_[i].weight;
       const double more = points_[i].weight * (entries_[next].bits - entries_[e].bits + 1);
@@ -158,6 +171,7 @@ class CellDescent {
     entries_[e] = {left, bits_of<R>(left)};
   }
 
+  const MaskClusters<R>& clusters_;
   const std::vector<Point>& points_;
   std::vector<Entry> entries_;
   std::vector<std::vector<std::uint32_t>> members_;

@@ -83,6 +83,8 @@ class MaskClusters {
   /// In the order of a CompressionLut, the last one full.
   const std::vector<Entry>& entries() const { return entries_; }
   std::uint16_t home(std::size_t point) const { return home_[point]; }
+  /// The tightest entry but the home that holds the point; the full entry when there is none or it is the home.
+  std::uint16_t next(std::size_t point) const { return next_[point]; }
   /// Numbers of the points that live with an entry.
   std::vector<std::vector<std::uint32_t>> members() const {
     std::vector<std::vector<std::uint32_t>> members(entries_.size());
@@ -132,6 +134,7 @@ class MaskClusters {
       entry.bits = lut.set_bits(e);
     }
     home_.resize(points_.size());
+    next_.resize(points_.size());
     weight_.assign(entries_.size(), 0);
     drop_cost_.assign(entries_.size(), 0);
     cost_ = 0;
@@ -140,6 +143,7 @@ class MaskClusters {
       const int home = search.find(point.mask.data());
       const int next = home + 1 < lut.entries() ? search.find(point.mask.data(), home + 1) : home;
       home_[i] = static_cast<std::uint16_t>(home);
+      next_[i] = static_cast<std::uint16_t>(next);
       weight_[home_[i]] += point.weight;
       drop_cost_[home_[i]] += point.weight * (lut.set_bits(next) - lut.set_bits(home));
       cost_ += point.weight * (lut.set_bits(home) - point.bits);
@@ -148,7 +152,7 @@ class MaskClusters {
 
   std::vector<Point> points_;
   std::vector<Entry> entries_;
-  std::vector<std::uint16_t> home_;
+  std::vector<std::uint16_t> home_, next_;
   std::vector<double> weight_, drop_cost_;
   double cost_ = 0;
 };
