@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Speeds: the unit in every mode, exec and replay; the builder and the closest hit beside Embree; recording a large scene.
+# Speeds: the unit in every mode, exec and replay; the builder and the closest hit beside Embree; object masks;
+# recording a large scene.
 #   tools/bench.sh BUILD_FOLDER SCRATCH_FOLDER
 set -euo pipefail
 build=$1
@@ -13,6 +14,10 @@ echo "== the unit on diffuse bounces of the bunny"
 echo
 echo "== tree and closest hit beside Embree, one thread"
 "$build/tests/bench/ctu_bench_accel" "$bunny" --benchmark_repetitions=5 | grep "Embree's speed"
+
+echo
+echo "== object masks by L, and their refit"
+"$build/tests/bench/ctu_bench_masks" "$bunny" --benchmark_filter='R=4/' | grep -E "triangles|R=4"
 
 if [ -f build/scenes/kitchen/scene.pbrt ]; then
   echo
