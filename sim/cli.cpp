@@ -9,14 +9,18 @@
 namespace ctu::sim {
 namespace {
 
+void add_index_option(CLI::App& app, SceneArgs& args) {
+  app.add_option("--index", args.index,
+                 "file with a line NAME PATH for each scene; SCENE may be such a NAME, no SCENE means all");
+}
+
 void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
   auto* scene = app.add_option("scene", args.scenes,
                                "scene file (.obj .ply .gltf .glb .pbrt .scn .hair .tfx .nff .list, each also .zst) or "
                                "a generated one: gen:hair-ball?strands=2000&seed=1");
   scene->expected(several ? 0 : 1, several ? -1 : 1);
   if (several)
-    app.add_option("--index", args.index,
-                   "file with a line NAME PATH for each scene; SCENE may be such a NAME, no SCENE means all");
+    add_index_option(app, args);
   else
     scene->required();
   app.add_option("--thickness", args.strand_thickness, "ribbon width of strands in scene units; 0: from the file");
@@ -63,6 +67,7 @@ struct Parsed {
   CullingArgs culling;
   HeatmapArgs heatmap;
   TablesArgs tables;
+  PaperArgs paper;
   TraceArgs trace;
   UnitArgs config;
   bool config_plain = false;
@@ -143,6 +148,30 @@ void add_tables(CLI::App& app, Parsed& parsed) {
   command->callback([&] { parsed.exit_code = tables_command(parsed.tables); });
 }
 
+void add_paper(CLI::App& app, Parsed& parsed) {
+  auto* command =
+      app.add_subcommand("paper", "the evaluation of a paper with our scenes, published values beside ours");
+  command->require_subcommand(1);
+  auto* subspace = command->add_subcommand(
+      "subspace", "subspace culling: Tables 1 to 3 and Fig. 8 as Markdown, plots and their data in --out");
+  PaperArgs& args = parsed.paper;
+  SceneArgs& scene = args.scene;
+  scene.size.clear();
+  scene.spp = 0;
+  subspace->add_option("scene", scene.scenes, "scenes: names of the index, files or generated ones; none: all");
+  add_index_option(*subspace, scene);
+  subspace->add_flag("--quick", args.quick, "160x90 pixels and 1 sample instead of the paper's 960x540 and 16");
+  subspace->add_option("--out", args.output, "folder to write to")->capture_default_str();
+  subspace->add_option("--size", scene.size, "picture size in pixels, WxH");
+  subspace->add_option("--spp", scene.spp, "samples per pixel");
+  subspace->add_option("--bounces", scene.bounces, "diffuse bounces after the primary ray, at most")
+      ->capture_default_str();
+  subspace->add_option("--seed", scene.seed, "seed of every random number")->capture_default_str();
+  subspace->add_option("--leaf", scene.leaf_triangles, "triangles in a leaf, at most")->capture_default_str();
+  subspace->add_option("--threads", scene.threads, "0: one for each core")->capture_default_str();
+  subspace->callback([&] { parsed.exit_code = paper_subspace_command(args); });
+}
+
 void add_trace(CLI::App& app, Parsed& parsed) {
   auto* command = app.add_subcommand("trace", "look into trace files");
   command->require_subcommand(1);
@@ -201,6 +230,7 @@ int run_cli(int argc, const char* const* argv) {
   add_culling(app, parsed);
   add_heatmap(app, parsed);
   add_tables(app, parsed);
+  add_paper(app, parsed);
   add_trace(app, parsed);
   add_config(app, parsed);
   add_bench(app, parsed);

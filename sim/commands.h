@@ -86,6 +86,12 @@ struct TablesArgs {
   bool markdown = false;
 };
 
+struct PaperArgs {
+  SceneArgs scene;  ///< size empty and spp 0: as the paper, or as `quick` says
+  bool quick = false;
+  std::string output = "paper-subspace";  ///< folder
+};
+
 struct TraceArgs {
   std::string trace;
   std::string output;  ///< slice
@@ -104,6 +110,7 @@ int compare_command(const CompareArgs& args);
 int culling_command(const CullingArgs& args);
 int heatmap_command(const HeatmapArgs& args);
 int tables_command(const TablesArgs& args);
+int paper_subspace_command(const PaperArgs& args);
 int trace_info_command(const TraceArgs& args);
 int trace_head_command(const TraceArgs& args);
 int trace_slice_command(const TraceArgs& args);

@@ -17,18 +17,21 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Of the processor, spent by this thread: other programs' turns are not counted, what they do to the caches is.
-class ThreadStopwatch {
+/// Of the processor: other programs' turns are not counted, what they do to the caches is.
+template <clockid_t kClock>
+class ProcessorStopwatch {
  public:
   double seconds() const { return now() - start_; }
 
  private:
   static double now() {
     timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    clock_gettime(kClock, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
   }
   double start_ = now();
 };
+using ThreadStopwatch = ProcessorStopwatch<CLOCK_THREAD_CPUTIME_ID>;
+using ProcessStopwatch = ProcessorStopwatch<CLOCK_PROCESS_CPUTIME_ID>;  ///< all threads together
 
 }  // namespace ctu::sim
