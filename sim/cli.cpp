@@ -28,6 +28,7 @@ void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
   app.add_option("--target", args.target, "what the camera looks at, x,y,z");
   app.add_option("--up", args.up, "direction that is up in the picture, x,y,z");
   app.add_option("--fov", args.vertical_fov, "vertical field of view in degrees");
+  app.add_option("--turn", args.turn, "degrees X,Y,Z by which scene and camera are turned about the axes");
   app.add_option("--rays", args.rays, "primary, diffuse, shadow, ao or random")->capture_default_str();
   app.add_option("--size", args.size, "picture size in pixels, WxH")->capture_default_str();
   app.add_option("--spp", args.spp, "samples per pixel")->capture_default_str();

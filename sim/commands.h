@@ -16,6 +16,7 @@ struct SceneArgs {
   double strand_thickness = 0;
   std::string eye, target, up;   ///< "x,y,z"; empty: as the scene says
   double vertical_fov = 0;       ///< degrees; 0: as the scene says
+  std::string turn;              ///< "x,y,z" degrees about the axes, scene and camera together
   std::string rays = "diffuse";  ///< `culling` also takes "all"
   std::string size = "256x256";
   std::uint32_t spp = 1;

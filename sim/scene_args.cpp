@@ -12,6 +12,7 @@
 #include "model/base/nearest.h"
 #include "model/base/parallel.h"
 #include "model/scene/load.h"
+#include "model/scene/rotate.h"
 
 namespace ctu::sim {
 namespace {
@@ -152,6 +153,11 @@ scene::Scene load_scene(const SceneArgs& args, const std::string& name) {
   options.strand_thickness = static_cast<float>(args.strand_thickness);
   scene::Scene scene = scene::load(name, options);
   place_camera(args, scene.camera);
+  if (!args.turn.empty()) {
+    Vec3 degrees;
+    parse_point("--turn", args.turn, degrees);
+    scene::rotate(scene, degrees);
+  }
   for (const std::string& warning : scene.report.warnings) fmt::print(stderr, "{}: {}\n", scene.name, warning);
   return scene;
 }

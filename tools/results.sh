@@ -1,32 +1,99 @@
 #!/usr/bin/env bash
-# The tables of docs/results.md: intersections with each design relative to none, for every scene and kind of ray.
-#   tools/results.sh PROGRAM SCENES_FOLDER [SIZE]
+# Makes the tables of docs/results.md between their marks, and the plots of docs/plots, from all scenes at hand.
+#   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
+# Sections: culling paper variants; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
-scenes=$2
-size=${3:-240x135}
+index=$2/index.txt
+shift 2
+full=0
+if [ "${1:-}" = --full ]; then full=1; shift; fi
+sections=("$@")
+[ ${#sections[@]} -gt 0 ] || sections=(culling paper variants)
 
-# Scenes without a camera in the file and with an inside worth seeing.
-declare -A camera=(
-  [sponza]="--eye -10,2,0 --target 10,4,0.5 --fov 60"
-)
-
-generated=("gen:hair-ball" "gen:curly-hair" "gen:straight-hair" "gen:tilted-quads" "gen:foliage" "gen:tetra")
+page=docs/results.md
+plots=docs/plots
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
 failed=0
-header=1
+[ -f "$index" ] || index=/dev/null  # then only the generated scenes
 
-survey() {  # NAME SCENE
-  local out
-  # shellcheck disable=SC2086
-  out=$("$program" culling "$2" --markdown --rays all --size "$size" --bounces 4 ${camera[$1]:-}) || {
-    case $? in 1) failed=1 ;; *) return 0 ;; esac
-  }
-  if [ "$header" = 1 ]; then printf '%s\n' "$out"; else printf '%s\n' "$out" | tail -n +3; fi
-  header=0
+# Puts the scratch file NAME between "<!-- begin: NAME -->" and "<!-- end: NAME -->".
+put() {  # NAME
+  awk -v begin="<!-- begin: $1 -->" -v end="<!-- end: $1 -->" -v file="$scratch/$1" '
+    $0 == end { inside = 0 }
+    !inside { print }
+    $0 == begin { print ""; while ((getline line < file) > 0) print line; print ""; inside = 1; found = 1 }
+    END { exit !found }' "$page" >"$scratch/page" || { echo "$page has no section $1" >&2; exit 2; }
+  cp "$scratch/page" "$page"
 }
 
-for scene in "${generated[@]}"; do survey "$scene" "$scene"; done
-if [ -f "$scenes/index.txt" ]; then
-  while read -r name path; do survey "$name" "$scenes/$path"; done <"$scenes/index.txt"
-fi
+# Runs a command into the scratch file NAME. A failed check (exit code 1) is remembered, all else ends the script.
+keep() {  # NAME COMMAND...
+  local name=$1 code=0
+  shift
+  "$@" >"$scratch/$name" || code=$?
+  case $code in 0) ;; 1) failed=1 ;; *) exit "$code" ;; esac
+}
+
+culling() {
+  keep culling "$program" culling --index "$index" --markdown --rays all --size 240x135 --bounces 4
+  put culling
+}
+
+paper() {
+  local quick=(--quick)
+  [ "$full" = 0 ] || quick=()
+  keep paper "$program" paper subspace --index "$index" "${quick[@]}" --out "$scratch/subspace"
+  put paper
+  mkdir -p "$plots"
+  cp "$scratch"/subspace/*.svg "$plots"
+}
+
+# One row: a scene of hair made more like the paper's, or less, at R = 4 and 6.
+variant() {  # LABEL SCENE OPTION...
+  local label=$1 r row cells="| $1 |"
+  shift
+  for r in 4 6; do
+    keep row "$program" culling --index "$index" "$@" --r "$r" --markdown --designs ideal,mask-lut --size 160x90
+    row=$(tail -1 "$scratch/row")
+    [ "$r" = 6 ] || cells+=$(cut -d'|' -f5 <<<"$row")"|"
+    cells+=$(cut -d'|' -f6,7 <<<"$row")"|"
+  done
+  echo "$cells"
+}
+
+variants() {
+  {
+    echo "| scene | intersections/ray | R = 4: ideal | LUT, R_ray = R | R = 6: ideal | LUT, R_ray = R |"
+    echo "| --- | ---: | ---: | ---: | ---: | ---: |"
+    if grep -q '^straight-hair ' "$index"; then
+      local degrees
+      for degrees in 0 5 10 12 15 20 30; do
+        variant "straight-hair, turned by $degrees degrees about x and y" straight-hair --turn "$degrees,$degrees,0"
+      done
+      variant "... as filed, ribbons a fifth as wide" straight-hair --thickness 0.02
+      variant "... as filed, one triangle a leaf" straight-hair --leaf 1
+      variant "... as filed, seen from inside the hair (field of view 15 degrees)" straight-hair --fov 15
+      echo "| *paper: Straight Hair* | | 56.5 % | 61.4 % | 42.5 % | 49.3 % |"
+    fi
+    local segments
+    for segments in 8 4 2; do
+      variant "gen:hair-ball, 20,000 strands of $segments segments" "gen:hair-ball?strands=20000&segments=$segments"
+    done
+    echo "| *paper: Hairball* | | 67.0 % | 71.5 % | 54.4 % | 61.1 % |"
+    variant "gen:curly-hair as it is" gen:curly-hair
+    variant "gen:curly-hair, 20,000 strands of 16 segments, a quarter as wide, one triangle a leaf" \
+      "gen:curly-hair?strands=20000&segments=16&thickness=0.0005" --leaf 1
+    echo "| *paper: Curly Hair* | | 57.5 % | 62.5 % | 43.3 % | 50.6 % |"
+  } >"$scratch/variants"
+  put variants
+}
+
+for section in "${sections[@]}"; do
+  case $section in
+    culling | paper | variants) "$section" ;;
+    *) echo "no section $section: culling, paper or variants" >&2; exit 2 ;;
+  esac
+done
 exit "$failed"

@@ -62,6 +62,14 @@ SearchResult measure_search(const accel::Bvh4& bvh, const ObjectMasks& masks, co
   return result;
 }
 
+/// Bits behind the R^3rd of each mask are zero everywhere.
+void clear_beyond_the_cells(ObjectMasks& masks) {
+  const int used = masks.resolution * masks.resolution * masks.resolution % 64;
+  if (used == 0) return;
+  const auto words = static_cast<std::size_t>(masks.words);
+  for (std::size_t w = words - 1; w < masks.bits.size(); w += words) masks.bits[w] &= (std::uint64_t{1} << used) - 1;
+}
+
 /// Every set of object masks that one resolution needs, and what making them took.
 struct MaskSets {
   MaskSets(const accel::Bvh4& bvh, int resolution, const MeasureOptions& options) {
@@ -78,28 +86,47 @@ struct MaskSets {
       level_seconds.push_back(seconds);
     }
     const auto compress = [&](Selection selection) {
-      return cull::compress(bvh, by_level.back(),
-                            {.resolution = resolution,
-                             .ray_resolution = resolution,
-                             .entries = kCompressionEntries,
-                             .selection = selection},
-                            threads);
+      const MaskOptions masks{.resolution = resolution,
+                              .ray_resolution = resolution,
+                              .entries = kCompressionEntries,
+                              .selection = selection};
+      return cull::compress(bvh, by_level.back(), masks, threads);
     };
     cull::CompressedMasks paper = compress(Selection::TopPerNode);
     search = measure_search(bvh, by_level.back(), paper.lut, options.repeats);
     compressed_paper = std::move(paper.masks);
-    compressed_ours = compress(Selection::Refined).masks;
+    compressed_summed = compress(Selection::TopSummed).masks;
+    cull::CompressedMasks ours = compress(Selection::Refined);
+    compressed_ours = std::move(ours.masks);
+    bit_table = std::make_unique<cull::MaskTester>(
+        Design::BitTable,
+        MaskOptions{.resolution = resolution, .ray_resolution = resolution, .entries = kCompressionEntries},
+        std::make_shared<cull::CompressionLut>(std::move(ours.lut)));
+    full = by_level.back();
+    std::fill(full.bits.begin(), full.bits.end(), ~std::uint64_t{0});
+    clear_beyond_the_cells(full);
   }
 
   const ObjectMasks& of(Column column) const {
-    return column == Column::CompressedPaper  ? compressed_paper
-           : column == Column::CompressedOurs ? compressed_ours
-                                              : by_level.back();
+    switch (column) {
+      case Column::Unasked:
+        return full;
+      case Column::CompressedPaper:
+        return compressed_paper;
+      case Column::CompressedSummed:
+        return compressed_summed;
+      case Column::CompressedOurs:
+      case Column::BitTable:
+        return compressed_ours;
+      default:
+        return by_level.back();
+    }
   }
 
   std::vector<ObjectMasks> by_level;  ///< L = 1 .. kMostLevels, then unlimited
   std::vector<double> level_seconds;
-  ObjectMasks compressed_paper, compressed_ours;
+  ObjectMasks full, compressed_paper, compressed_summed, compressed_ours;
+  std::unique_ptr<cull::MaskTester> bit_table;
   SearchResult search;
 };
 
@@ -142,8 +169,8 @@ RayTables::RayTables(int resolution) : resolution_(resolution) {
 }
 
 const cull::MaskTester& RayTables::tester(Column column) const {
-  const bool compressed = column == Column::CompressedPaper || column == Column::CompressedOurs;
-  return *testers_[static_cast<std::size_t>(compressed ? Column::Lut : column)];
+  const auto& own = testers_[static_cast<std::size_t>(column)];
+  return own ? *own : *testers_[static_cast<std::size_t>(Column::Lut)];
 }
 
 std::uint64_t RayTables::lut_bytes() const { return table_bytes(Column::Lut); }
@@ -160,7 +187,8 @@ ResolutionResult measure_subspace(const scene::Scene& scene, const accel::Bvh4& 
   std::vector<Contender> contenders;
   for (std::size_t c = 0; c < kColumns; ++c) {
     const auto column = static_cast<Column>(c);
-    contenders.push_back({&tables.tester(column), &masks.of(column), true});
+    const cull::MaskTester& tester = column == Column::BitTable ? *masks.bit_table : tables.tester(column);
+    contenders.push_back({&tester, &masks.of(column), column != Column::CompressedSummed});
   }
   for (int l = 0; l < kMostLevels; ++l)
     contenders.push_back({&tables.tester(Column::Lut), &masks.by_level[static_cast<std::size_t>(l)], false});

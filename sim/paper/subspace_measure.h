@@ -21,24 +21,27 @@ namespace ctu::sim::paper {
 inline constexpr int kCompressionEntries = 256;
 inline constexpr int kChunkBits = 8;
 
-/// What Table 1 compares, and more: the compressed columns' rays have masks of R_ray = R.
+/// What Tables 1 and 2 compare, and more. The compressed columns' rays have masks of R_ray = R.
 enum class Column : std::uint8_t {
   NoCulling,
+  Unasked,  ///< every object mask full: the box test that culling needs, and no question behind it
   Ideal,
-  Lut,              ///< ray mask LUT, R_ray = R
-  LutDouble,        ///< R_ray = 2R
-  CompressedPaper,  ///< Lut over 256 entries, the most important masks as in section 3.2.2
-  CompressedOurs,   ///< Lut over 256 entries, our selection
-  Comparators,      ///< our design without tables
+  Lut,               ///< ray mask LUT, R_ray = R
+  LutDouble,         ///< R_ray = 2R
+  CompressedPaper,   ///< Lut over 256 entries: the masks of the most important children (section 3.2.2)
+  CompressedSummed,  ///< ... with importance summed over equal masks
+  CompressedOurs,    ///< ... our selection
+  BitTable,          ///< CompressedOurs' entries, asked by a bit table (section 3.2.2)
+  Comparators,       ///< our design without tables
 };
-inline constexpr std::size_t kColumns = 7;
+inline constexpr std::size_t kColumns = 10;
 
 /// The ray mask tables at one R: made once, used for every scene.
 class RayTables {
  public:
   explicit RayTables(int resolution);
   int resolution() const { return resolution_; }
-  /// For the compressed columns, too: what is compressed are the object masks.
+  /// For the compressed columns, too: what is compressed are the object masks. BitTable's depends on the scene.
   const cull::MaskTester& tester(Column column) const;
   double lut_seconds() const { return lut_seconds_; }                ///< to make the table of R_ray = R
   double lut_double_seconds() const { return lut_double_seconds_; }  ///< ... and of 2R

@@ -10,6 +10,39 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
+constexpr Column kRatioColumns[] = {
+    Column::Ideal,          Column::Lut,        Column::LutDouble, Column::CompressedPaper, Column::CompressedSummed,
+    Column::CompressedOurs, Column::Comparators};
+constexpr Column kTimeColumns[] = {
+    Column::Ideal,          Column::Lut,      Column::LutDouble,  Column::Unasked, Column::CompressedPaper,
+    Column::CompressedOurs, Column::BitTable, Column::Comparators};
+
+const char* title(Column column) {
+  switch (column) {
+    case Column::NoCulling:
+      return "no culling";
+    case Column::Unasked:
+      return "box test of culling alone";
+    case Column::Ideal:
+      return "ideal";
+    case Column::Lut:
+      return "LUT, R_ray = R";
+    case Column::LutDouble:
+      return "LUT, R_ray = 2R";
+    case Column::CompressedPaper:
+      return "256 entries, paper's selection";
+    case Column::CompressedSummed:
+      return "256 entries, summed over equal masks";
+    case Column::CompressedOurs:
+      return "256 entries, our selection";
+    case Column::BitTable:
+      return "the same as bit table";
+    case Column::Comparators:
+      return "comparators";
+  }
+  return "";
+}
+
 /// A Markdown table: `texts` columns of text, then numbers.
 class Table {
  public:
@@ -31,7 +64,7 @@ class Table {
 };
 
 std::string percent(double value) { return fmt::format("{:.1f} %", value); }
-std::string milliseconds(double seconds) { return fmt::format("{:.1f}", 1e3 * seconds); }
+std::string milliseconds(double seconds) { return fmt::format("{:.3g}", 1e3 * seconds); }
 
 /// "paper: San Miguel (same)", indented below our row.
 std::string paper_row(const Counterpart& paper) {
@@ -58,7 +91,7 @@ Cells mean_row(const std::vector<SceneResult>& results, const std::string& title
 
 std::vector<double> ratios(const ResolutionResult& result) {
   std::vector<double> values;
-  for (std::size_t c = 1; c < kColumns; ++c) values.push_back(result.columns[c].percent);
+  for (const Column column : kRatioColumns) values.push_back(ratio(result, column));
   return values;
 }
 
@@ -115,9 +148,10 @@ std::string scene_table(const std::vector<SceneResult>& results) {
 }
 
 std::string ratio_table(const std::vector<SceneResult>& results, std::size_t r) {
-  Table table({"scene", "ideal", "LUT, R_ray = R", "LUT, R_ray = 2R", "256 entries, paper's selection",
-               "256 entries, our selection", "comparators", "our loss / paper's loss"},
-              1);
+  Cells titles{"scene"};
+  for (const Column column : kRatioColumns) titles.emplace_back(title(column));
+  titles.emplace_back("our loss / paper's loss");
+  Table table(titles, 1);
   for (const SceneResult& scene : results) {
     Cells cells{scene.name};
     for (const double value : ratios(scene.at[r])) cells.push_back(percent(value));
@@ -127,7 +161,7 @@ std::string ratio_table(const std::vector<SceneResult>& results, std::size_t r) 
     if (paper.scene == nullptr) continue;
     const PublishedRatios& row = paper.scene->ratios[r];
     table.add({paper_row(paper), percent(row.ideal), percent(row.lut), percent(row.lut_double), percent(row.compressed),
-               "", "", ""});
+               "", "", "", ""});
   }
   if (!results.empty()) {
     Cells mean = mean_row(results, "*mean of ours*", [&](const SceneResult& scene) { return ratios(scene.at[r]); });
@@ -161,12 +195,13 @@ std::string step_table(const std::vector<SceneResult>& results) {
 }
 
 std::string time_table(const std::vector<SceneResult>& results, std::size_t r) {
-  Table table({"scene", "no culling", "ideal", "LUT, R_ray = R", "LUT, R_ray = 2R", "256 entries, paper's selection",
-               "256 entries, our selection", "comparators"},
-              1);
+  Cells titles{"scene", "no culling"};
+  for (const Column column : kTimeColumns) titles.emplace_back(title(column));
+  Table table(titles, 1);
   const auto relative = [&](const SceneResult& scene) {
     std::vector<double> values;
-    for (std::size_t c = 1; c < kColumns; ++c) values.push_back(100 * scene.at[r].columns[c].relative_seconds);
+    for (const Column column : kTimeColumns)
+      values.push_back(100 * scene.at[r].columns[static_cast<std::size_t>(column)].relative_seconds);
     return values;
   };
   for (const SceneResult& scene : results) {
@@ -180,7 +215,7 @@ std::string time_table(const std::vector<SceneResult>& results, std::size_t r) {
     if (paper.scene == nullptr) continue;
     const PublishedTimes& row = paper.scene->times[r];
     table.add({paper_row(paper), fmt::format("{:.2f} s", paper.scene->seconds), percent(row.ideal), percent(row.lut),
-               percent(row.lut_double), "", "", ""});
+               percent(row.lut_double), "", "", "", "", ""});
   }
   if (!results.empty()) {
     Cells mean = mean_row(results, "*mean of ours*", relative);
