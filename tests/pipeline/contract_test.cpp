@@ -272,6 +272,17 @@ TEST(Contract, a_design_other_than_the_tables_is_refused) {
   EXPECT_THROW(world.run(config), Error);
 }
 
+TEST(Contract, designs_with_the_same_masks_and_keys_have_the_same_events) {
+  const std::vector<Design> by_masks{Design::MaskLut, Design::Dedup, Design::Projection};
+  const std::vector<Design> by_index{Design::MaskLut, Design::BitTable, Design::Dedup, Design::Projection};
+  for (const auto& [options, designs] : {std::pair(cull::MaskOptions{}, by_masks), std::pair(kCompressed, by_index)})
+    for (const Design design : designs) {
+      World &first = world_of({Design::MaskLut, options}), &other = world_of({design, options});
+      EXPECT_EQ(run(other, other.config(), {.exec = true}).untimed_hash, run(first, first.config()).untimed_hash)
+          << name_of({design, options});
+    }
+}
+
 /// Rays of the world whose origins lie outside the whole scene.
 std::vector<intersect::Ray> rays_from_outside(const World& world) {
   std::vector<intersect::Ray> outside;

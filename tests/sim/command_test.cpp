@@ -171,6 +171,34 @@ TEST_F(CommandTest, a_trace_of_compressed_masks_says_so_and_loses_no_hit) {
   EXPECT_EQ(json::parse(read_text(file("packed.json")))["wrong_hits"], 0);
 }
 
+TEST_F(CommandTest, designs_that_read_tables_visit_the_same_over_compressed_masks_on_chip_and_cached) {
+  ASSERT_EQ(ctusim("record 'gen:hair-ball?strands=200&seed=7' -o packed.ctut --size 32x32 --compress 64").exit_code, 0);
+  const auto counter = [](const json& result, const std::string& name) {
+    for (const json& entry : result["counters"])
+      if (entry["name"] == name) return entry["value"].get<long>();
+    ADD_FAILURE() << "no counter " << name;
+    return 0L;
+  };
+  std::map<std::string, long> visits;
+  for (const std::string design : {"mask-lut", "bit-table", "dedup", "projection"})
+    for (const std::string tables : {"", "--set mask_test.rows=folded", "--set table_cache.bytes=4096"}) {
+      const Outcome outcome =
+          ctusim("run packed.ctut --json packed.json --set mask_test.design=" + design + " " + tables);
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+      const json result = json::parse(read_text(file("packed.json")));
+      EXPECT_EQ(result["wrong_hits"], 0) << design << tables;
+      visits[design + tables] = counter(result, "traversal.node_visits") * 1000000 +
+                                counter(result, "traversal.culled") + counter(result, "traversal.uncertain");
+      if (design == "bit-table" && tables.empty()) {
+        EXPECT_EQ(counter(result, "mask_test.bit_table.rows"), 4096);
+        EXPECT_EQ(counter(result, "mask_test.bit_table.row_bits"), 64);
+        EXPECT_EQ(counter(result, "mask_test.table_bits"), 4096 * 64);
+        EXPECT_GT(counter(result, "mask_test.bit_table.rows_used"), 0);
+      }
+    }
+  for (const auto& [run, visited] : visits) EXPECT_EQ(visited, visits.begin()->second) << run;
+}
+
 TEST_F(CommandTest, nodes_have_the_bytes_that_masks_and_alignment_ask_for) {
   const std::map<std::string, int> stride_of = {{"", 144},
                                                 {"--r 6", 220},
@@ -203,6 +231,9 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("run hair.ctut --set unit.contexts=0", "unit.contexts");
   expect_refused("run hair.ctut --set unit.contexts=many", "unit.contexts");
   expect_refused("run hair.ctut --set unit.contexts", "--set unit.contexts");
+  expect_refused("run hair.ctut --set mask_test.design=bit-table", "--compress");
+  expect_refused("run hair.ctut --set mask_test.rows=few", "reachable");
+  expect_refused("run hair.ctut --set table_cache.bytes=1000", "table_cache.bytes");
   expect_refused("run hair.ctut --window 5", "--window");
   expect_refused("run hair.ctut --engine hardware", "--engine");
   expect_refused("run hair.ctut --mode turbo", "--mode");
