@@ -81,40 +81,55 @@ TEST(DedupTable, distinct_masks_are_the_published_ones) {
   EXPECT_EQ(DedupTable(4, 8, nullptr).distinct(), 20770u);
 }
 
+/// Testers of every design for one R and R_ray, the first of them `mask-lut`.
+struct Testers {
+  std::shared_ptr<const CompressionLut> lut;
+  std::vector<MaskTester> of;
+};
+
+const std::vector<Testers>& testers() {
+  static const std::vector<Testers> all = [] {
+    std::mt19937_64 random(oracle::test_seed());
+    std::vector<Testers> made;
+    for (const Sizes s : {Sizes{2, 3}, Sizes{4, 4}, Sizes{4, 6}, Sizes{4, 8}, Sizes{6, 7}}) {
+      const MaskOptions options{.resolution = s.r, .ray_resolution = s.ray};
+      Testers testers{std::make_shared<const CompressionLut>(s.r, random_masks(s.r, 60, random)), {}};
+      for (const Design design : {Design::MaskLut, Design::Projection, Design::Dedup}) {
+        testers.of.emplace_back(design, options);
+        testers.of.emplace_back(design, options, testers.lut);
+      }
+      testers.of.emplace_back(Design::BitTable, options, testers.lut);
+      made.push_back(std::move(testers));
+    }
+    return made;
+  }();
+  return all;
+}
+
 class DesignsAgree : public testing::TestWithParam<test::Family> {};
 
 TEST_P(DesignsAgree, on_pass_uncertain_and_key_of_any_ray_with_masks_compressed_or_not) {
   SCOPED_TRACE(oracle::seed_note());
   test::CaseMaker make(oracle::test_seed());
-  std::mt19937_64 random(oracle::test_seed());
-  for (const Sizes s : {Sizes{2, 3}, Sizes{4, 4}, Sizes{4, 7}, Sizes{6, 6}}) {
-    const MaskOptions options{.resolution = s.r, .ray_resolution = s.ray};
-    const auto lut = std::make_shared<const CompressionLut>(s.r, random_masks(s.r, 60, random));
-    std::vector<MaskTester> testers;
-    for (const Design design : {Design::MaskLut, Design::Projection, Design::Dedup}) {
-      testers.emplace_back(design, options);
-      testers.emplace_back(design, options, lut);
-    }
-    testers.emplace_back(Design::BitTable, options, lut);
-    for (int i = 0; i < 1500; ++i) {
+  for (const Testers& testers : testers())
+    for (int i = 0; i < 1000; ++i) {
       const test::RayAndBox c = make.ray_and_box(GetParam());
       const intersect::PreparedRay ray = intersect::prepare_ray(c.ray);
       if (!ray.valid) continue;
       const intersect::Box4 boxes = test::box_in_lane_0(c.lo, c.hi);
       const intersect::SlabTimes times = intersect::slab_test(ray, boxes, c.ray.tmax);
-      std::uint16_t index[4] = {static_cast<std::uint16_t>(random() % static_cast<unsigned>(lut->entries()))};
-      std::vector<std::uint64_t> objects(static_cast<std::size_t>(4 * lut->words()));
-      std::copy_n(lut->entry(index[0]), lut->words(), objects.begin());
-      const MaskTestResult expected = testers[0].test(ray, times, boxes, {objects.data(), index});
-      for (const MaskTester& tester : testers) {
+      const CompressionLut& lut = *testers.lut;
+      const std::uint16_t index[4] = {static_cast<std::uint16_t>(make.integer(0, lut.entries() - 1))};
+      std::vector<std::uint64_t> objects(static_cast<std::size_t>(4 * lut.words()));
+      std::copy_n(lut.entry(index[0]), lut.words(), objects.begin());
+      const MaskTestResult expected = testers.of[0].test(ray, times, boxes, {objects.data(), index});
+      for (const MaskTester& tester : testers.of) {
         const MaskTestResult result = tester.test(ray, times, boxes, {objects.data(), index});
-        SCOPED_TRACE(std::string(to_string(tester.design())) + ": " + test::text(c));
-        ASSERT_EQ(result.pass, expected.pass);
-        ASSERT_EQ(result.uncertain, expected.uncertain);
-        ASSERT_EQ(result.key[0], expected.key[0]);
+        ASSERT_EQ(result.pass, expected.pass) << to_string(tester.design()) << ": " << test::text(c);
+        ASSERT_EQ(result.uncertain, expected.uncertain) << to_string(tester.design()) << ": " << test::text(c);
+        ASSERT_EQ(result.key[0], expected.key[0]) << to_string(tester.design()) << ": " << test::text(c);
       }
     }
-  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, DesignsAgree, testing::ValuesIn(test::families()),

@@ -47,8 +47,9 @@ TEST(HostileBoxes, no_touched_cell_is_lost_and_certain_keys_hold_the_exact_cells
       ideal_mask(ray, times, c.boxes, lane, r, words.data());
       ASSERT_TRUE(holds(words, oracle::exact_ray_cells(c.ray, lo, hi, r, c.ray.tmin, c.tmax, oracle::Cells::HalfOpen)));
 
-      const CellKey key = cell_locate(ray, times, c.boxes, lane, r);
-      const test::ExactOverlap exact = test::exact_overlap_cells(c.ray, lo, hi, r, c.ray.tmin, c.tmax);
+      const int n = r + (i + 3 * lane) % (2 * r + 1);  // R_ray from R to 3R
+      const CellKey key = cell_locate(ray, times, c.boxes, lane, n);
+      const test::ExactOverlap exact = test::exact_overlap_cells(c.ray, lo, hi, n, c.ray.tmin, c.tmax);
       if (key.uncertain() || !exact.hit) continue;
       ++certain;
       ASSERT_TRUE(test::holds(key, exact.begin, exact.end));

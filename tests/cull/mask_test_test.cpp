@@ -20,7 +20,11 @@ const std::vector<MaskTester>& testers() {
     for (int r = kMinResolution; r <= kMaxResolution; ++r) {
       for (const Design design : {Design::None, Design::Ideal, Design::Comparators})
         made.emplace_back(design, MaskOptions{.resolution = r, .ray_resolution = r});
-      made.emplace_back(Design::MaskLut, MaskOptions{.resolution = r, .ray_resolution = r});
+      // Tables by the whole key where they are small, R_ray = 3R and non-multiples among them.
+      for (int ray_resolution = r; ray_resolution <= std::min(3 * r, 7); ++ray_resolution)
+        made.emplace_back(ray_resolution % 2 == 0 ? Design::MaskLut : Design::Dedup,
+                          MaskOptions{.resolution = r, .ray_resolution = ray_resolution});
+      if (r == 8) made.emplace_back(Design::MaskLut, MaskOptions{.resolution = r, .ray_resolution = r});
       for (int ray_resolution = r; ray_resolution <= 3 * r; ++ray_resolution)
         made.emplace_back(Design::Projection, MaskOptions{.resolution = r, .ray_resolution = ray_resolution});
     }

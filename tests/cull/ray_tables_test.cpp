@@ -101,6 +101,26 @@ TEST(RayMaskTable, a_cell_is_set_iff_no_plane_separates_it_from_the_swept_cell) 
   }
 }
 
+TEST(ProjectionTable, has_the_cells_that_no_plane_separates_for_every_r_and_r_ray) {
+  SCOPED_TRACE(oracle::seed_note());
+  std::mt19937_64 random(oracle::test_seed());
+  for (int r = kMinResolution; r <= kMaxResolution; ++r)
+    for (int n = r; n <= 3 * r; ++n) {
+      const ProjectionTable table(r, n);
+      std::vector<std::uint64_t> mask(static_cast<std::size_t>(words_per_mask(r)));
+      for (int i = 0; i < 60; ++i) {
+        const CellKey key = key_of_row(static_cast<std::uint32_t>(random() % key_count(n)), n);
+        const int begin[3] = {key.begin(0), key.begin(1), key.begin(2)}, end[3] = {key.end(0), key.end(1), key.end(2)};
+        table.ray_mask(key, mask.data());
+        for (int z = 0; z < r; ++z)
+          for (int y = 0; y < r; ++y)
+            for (int x = 0; x < r; ++x)
+              ASSERT_EQ(has_cell(mask.data(), r, x, y, z), swept_cell_overlaps({r, n}, begin, end, {x, y, z}))
+                  << "R " << r << ", R_ray " << n << ", key " << std::hex << key.packed << ", cell " << x << y << z;
+      }
+    }
+}
+
 TEST(RayMaskTable, every_point_between_two_cells_lies_in_a_set_cell) {
   SCOPED_TRACE(oracle::seed_note());
   std::mt19937_64 random(oracle::test_seed());

@@ -224,6 +224,17 @@ TEST_F(CommandTest, a_trace_without_masks_runs_without_culling_only) {
   expect_refused("run bare.ctut --engine reference --set mask_test.design=comparators", "carries no masks");
 }
 
+TEST_F(CommandTest, tables_prints_exact_bits_and_says_what_is_refused) {
+  const Outcome small = ctusim("tables --r 4 --entries 256");
+  EXPECT_EQ(small.exit_code, 0) << small.err;
+  for (const char* text : {"ray masks 4096 x 64", "bit table 4096 x 256", "1048576", "ids 4096 x 11", "280 x 64"})
+    EXPECT_NE(small.out.find(text), std::string::npos) << text;
+  const Outcome large = ctusim("tables --r 8 --r-ray 24");
+  EXPECT_EQ(large.exit_code, 0) << large.err;
+  EXPECT_NE(large.out.find("refused: R_ray^6 masks of R = 8"), std::string::npos) << large.out;
+  EXPECT_NE(large.out.find("331776 x 64"), std::string::npos) << large.out;
+}
+
 TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("run missing.ctut", "missing.ctut");
   expect_refused("run hair.ctut --set mask_test.desing=none", "mask_test.design");
@@ -241,6 +252,11 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("record gen:hair-bal -o x.ctut", "hair-ball");
   expect_refused("record gen:hair-ball -o x.ctut --size big", "--size");
   expect_refused("record gen:hair-ball -o x.ctut --r 9", "--r");
+  expect_refused("record gen:hair-ball -o x.ctut --r 6 --r-ray 5", "--r-ray");
+  expect_refused("record gen:hair-ball -o x.ctut --r-ray 25", "--r-ray");
+  expect_refused("tables --r 6 --r-ray 5", "R_ray");
+  expect_refused("tables --entries 8", "entries");
+  expect_refused("tables --projection-tables 2", "--projection-tables");
   expect_refused("record gen:hair-ball -o x.ctut --l 7", "--l");
   for (const std::string command :
        {"record gen:hair-ball -o x.ctut", "culling gen:hair-ball", "heatmap gen:hair-ball -o x.png"}) {
