@@ -32,13 +32,20 @@ void print_header(const TablesArgs& args, const cull::MaskOptions& masks) {
 
 void print_row(const TablesArgs& args, Design design, TableRows rows, const cull::OnChipTables& tables) {
   const double kibibytes = double(tables.bits()) / (8 * 1024);
-  fmt::print(fmt::runtime(args.markdown ? "| {} | {} | {} | {:.2f} | {} |\n" : "{:<13}{:<11}{:>14}{:>12.2f}  {}\n"),
-             to_string(design), to_string(rows), tables.bits(), kibibytes, memories_of(tables.tables()));
+  const std::string memories = memories_of(tables.tables());
+  if (args.markdown)
+    fmt::print("| {} | {} | {} | {:.2f} | {} |\n", to_string(design), to_string(rows), tables.bits(), kibibytes,
+               memories);
+  else
+    fmt::print("{:<13}{:<11}{:>14}{:>12.2f}  {}\n", to_string(design), to_string(rows), tables.bits(), kibibytes,
+               memories);
 }
 
 void print_refused(const TablesArgs& args, Design design, const std::string& problem) {
-  fmt::print(fmt::runtime(args.markdown ? "| {} | refused | | | {} |\n" : "{:<13}refused: {}\n"), to_string(design),
-             problem);
+  if (args.markdown)
+    fmt::print("| {} | refused | | | {} |\n", to_string(design), problem);
+  else
+    fmt::print("{:<13}refused: {}\n", to_string(design), problem);
 }
 
 /// Throws Error when the simulator refuses the design, before any work.
