@@ -82,18 +82,29 @@ std::vector<std::string> ray_kinds(const std::string& list) {
   return {list};
 }
 
+/// What to trace of each scene, a kind of rays each, checked before the first scene is loaded.
+std::vector<std::pair<std::string, traces::RecordOptions>> surveys_of(const CullingArgs& args,
+                                                                      const std::vector<cull::Design>& designs) {
+  std::vector<std::pair<std::string, traces::RecordOptions>> surveys;
+  for (const std::string& kind : ray_kinds(args.scene.rays)) {
+    SceneArgs one = args.scene;
+    one.rays = kind;
+    surveys.emplace_back(kind, record_options(one));
+  }
+  for (const cull::Design design : designs) require_possible(design, surveys.front().second.masks);
+  return surveys;
+}
+
 }  // namespace
 
 int culling_command(const CullingArgs& args) {
   const auto designs = parse_designs(args.designs);
+  const auto surveys = surveys_of(args, designs);
   bool lost = false, first = true;
   for (const ListedScene& listed : listed_scenes(args.scene)) {
     const std::optional<scene::Scene> scene = load_listed(args.scene, listed);
     if (!scene) continue;
-    for (const std::string& kind : ray_kinds(args.scene.rays)) {
-      SceneArgs one = args.scene;
-      one.rays = kind;
-      const traces::RecordOptions options = record_options(one);
+    for (const auto& [kind, options] : surveys) {
       CullingSurvey survey;
       {
         Progress bar(listed.name, 0, "paths");

@@ -73,6 +73,7 @@ int heatmap_command(const HeatmapArgs& args) {
   const traces::RecordOptions options = record_options(scene_args);
   const auto designs = parse_designs(args.design);
   if (designs.size() != 1) throw Error("--design", "one design fits into the picture", "give one name");
+  require_possible(designs.front(), options.masks);
 
   const scene::Scene scene = load_scene(scene_args, scene_args.scenes.front());
   const accel::Bvh4 bvh = accel::build(scene.mesh, options.build);

@@ -11,6 +11,9 @@
 #include "model/base/error.h"
 #include "model/base/nearest.h"
 #include "model/base/parallel.h"
+#include "model/cull/bit_table.h"
+#include "model/cull/dedup_table.h"
+#include "model/cull/ray_mask_table.h"
 #include "model/scene/load.h"
 #include "model/scene/rotate.h"
 
@@ -126,6 +129,16 @@ std::vector<cull::Design> parse_designs(const std::string& list) {
     begin = comma + 1;
   }
   return designs;
+}
+
+void require_possible(cull::Design design, const cull::MaskOptions& masks) {
+  if (design == cull::Design::MaskLut) cull::RayMaskTable::require_fits(masks.resolution, masks.ray_resolution);
+  if (design == cull::Design::BitTable && masks.entries == 0)
+    throw Error("bit-table", "the object masks are not compressed",
+                "give the entries of a compression LUT, or choose dedup");
+  if (design == cull::Design::BitTable) cull::BitTable::require_fits(masks.ray_resolution, masks.entries);
+  if (design == cull::Design::Dedup)
+    cull::DedupTable::require_fits(masks.resolution, masks.ray_resolution, masks.entries);
 }
 
 traces::RecordOptions record_options(const SceneArgs& args) {

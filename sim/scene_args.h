@@ -14,6 +14,9 @@ namespace ctu::sim {
 /// "none,mask-lut" as designs; Error on an unknown one, naming the nearest.
 std::vector<cull::Design> parse_designs(const std::string& list);
 
+/// Throws Error when the design cannot have its tables with such masks: asked before any work.
+void require_possible(cull::Design design, const cull::MaskOptions& masks);
+
 /// Everything of SceneArgs but the scenes' names; Error on a word or number that is not allowed.
 traces::RecordOptions record_options(const SceneArgs& args);
 

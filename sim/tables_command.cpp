@@ -7,6 +7,7 @@
 #include "model/base/error.h"
 #include "model/cull/on_chip_tables.h"
 #include "sim/commands.h"
+#include "sim/scene_args.h"
 
 namespace ctu::sim {
 namespace {
@@ -46,15 +47,6 @@ void print_refused(const TablesArgs& args, Design design, const std::string& pro
     fmt::print("| {} | refused | | | {} |\n", to_string(design), problem);
   else
     fmt::print("{:<13}refused: {}\n", to_string(design), problem);
-}
-
-/// Throws Error when the simulator refuses the design, before any work.
-void require_possible(Design design, const cull::MaskOptions& masks) {
-  if (design == Design::MaskLut) cull::RayMaskTable::require_fits(masks.resolution, masks.ray_resolution);
-  if (design == Design::BitTable && masks.entries == 0)
-    throw Error("bit-table", "the object masks are not compressed", "give --entries");
-  if (design == Design::BitTable) cull::BitTable::require_fits(masks.ray_resolution, masks.entries);
-  if (design == Design::Dedup) cull::DedupTable::require_fits(masks.resolution, masks.ray_resolution, masks.entries);
 }
 
 void print_design(const TablesArgs& args, Design design, const cull::MaskOptions& masks) {

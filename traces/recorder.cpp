@@ -29,9 +29,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// A design at work: its tables, made before anything else so that tables too large are refused at once, and its walk.
+/// Whose tables stand for an event class: those of projection give mask-lut's masks bit for bit, and there is no R_ray
+/// for which they would be too large or take long to make.
+Design tables_of(Design event_class) { return event_class == Design::MaskLut ? Design::Projection : event_class; }
+
+/// A design at work: its tables and its walk.
 struct Culler {
-  Culler(Design d, bool store, const cull::MaskOptions& masks) : design(d), stored(store), tester(d, masks) {}
+  Culler(Design d, bool store, const cull::MaskOptions& masks)
+      : design(d), stored(store), tester(tables_of(d), masks) {}
   Design design;
   bool stored;
   cull::MaskTester tester;

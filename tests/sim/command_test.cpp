@@ -235,6 +235,12 @@ TEST_F(CommandTest, tables_prints_exact_bits_and_says_what_is_refused) {
   EXPECT_NE(large.out.find("331776 x 64"), std::string::npos) << large.out;
 }
 
+TEST_F(CommandTest, a_resolution_whose_table_is_too_large_is_recorded_all_the_same) {
+  ASSERT_EQ(ctusim("record 'gen:hair-ball?strands=50' -o fine.ctut --size 8x8 --r 8 --r-ray 24").exit_code, 0);
+  EXPECT_EQ(ctusim("run fine.ctut --engine reference --set mask_test.design=projection").exit_code, 0);
+  expect_refused("run fine.ctut --engine reference --set mask_test.design=mask-lut", "ray-mask table");
+}
+
 TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("run missing.ctut", "missing.ctut");
   expect_refused("run hair.ctut --set mask_test.desing=none", "mask_test.design");
@@ -267,6 +273,12 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
     expect_refused(command + " --selection refined", "--compress 256");
     expect_refused(command + " --r 4 --r-ray 3", "--r-ray");
     expect_refused(command + " --r 4 --r-ray 25", "--r-ray");
+  }
+  for (const std::string command : {"culling nowhere.obj --designs ", "heatmap nowhere.obj -o x.png --design "}) {
+    expect_refused(command + "mask-lut --r 8 --r-ray 24", "ray-mask table");  // before the scene is looked for
+    expect_refused(command + "dedup --r 8 --r-ray 24", "deduplicated ray masks");
+    expect_refused(command + "bit-table --r-ray 24 --compress 4096", "bit table");
+    expect_refused(command + "bit-table", "not compressed");
   }
   expect_refused("record gen:hair-ball -o x.ctut --node-align 24", "--node-align");
   expect_refused("record gen:hair-ball -o x.ctut --triangle-align 0", "--triangle-align");
