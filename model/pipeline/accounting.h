@@ -40,7 +40,6 @@ class Account {
 
   /// The stage's activity in cycle `now`; at most once a cycle, in ascending order.
   void set(Cycle now, Activity activity) {
-    if (activity == current_) return;
     cycles_[static_cast<int>(current_)] += now - since_;
     since_ = now;
     current_ = activity;

@@ -12,49 +12,47 @@ namespace ctu::pipeline {
 
 using LineNumber = std::uint64_t;  ///< byte address / line bytes
 
-/// Tags with least-recently-used replacement. Without lines, everything misses and nothing is kept.
+/// Tags with least-recently-used replacement. Without lines, everything misses and nothing is kept. A set is kept in
+/// the order of use, the last used line first: which way of the hardware's set holds a line changes nothing outside.
 class CacheTags {
  public:
   CacheTags(const CacheConfig& config, int line_bytes)
-      : ways_(static_cast<std::size_t>(config.ways)),
+      : ways_(config.bytes == 0 ? 0 : static_cast<std::size_t>(config.ways)),
         set_mask_(config.bytes == 0 ? 0 : static_cast<LineNumber>(config.bytes / line_bytes / config.ways - 1)),
-        ways_of_all_(config.bytes == 0 ? 0 : static_cast<std::size_t>(config.bytes / line_bytes)) {}
+        lines_(config.bytes == 0 ? 0 : static_cast<std::size_t>(config.bytes / line_bytes), kNoLine) {}
 
   /// A hit makes the line the most recently used of its set.
   bool touch(LineNumber line) {
-    if (ways_of_all_.empty()) return false;
-    Way* set = set_of(line);
+    LineNumber* set = set_of(line);
     for (std::size_t w = 0; w < ways_; ++w)
-      if (set[w].line == line) {
-        set[w].last_use = ++uses_;
+      if (set[w] == line) {
+        put_first(set, w, line);
         return true;
       }
     return false;
   }
-  /// Takes a line in, in the place of the least recently used of its set; of places never used, the first.
+  /// Takes a line in, in the place of the least recently used of its set.
   void install(LineNumber line) {
-    if (ways_of_all_.empty()) return;
-    Way* set = set_of(line);
-    std::size_t victim = 0;
-    for (std::size_t w = 1; w < ways_; ++w)
-      if (set[w].last_use < set[victim].last_use) victim = w;
-    if (set[victim].line != kNoLine) ++evictions_;
-    set[victim] = {line, ++uses_};
+    if (ways_ == 0) return;
+    LineNumber* set = set_of(line);
+    if (set[ways_ - 1] != kNoLine) ++evictions_;
+    put_first(set, ways_ - 1, line);
   }
   std::uint64_t evictions() const { return evictions_; }
 
  private:
   static constexpr LineNumber kNoLine = ~LineNumber{0};
-  struct Way {
-    LineNumber line = kNoLine;
-    std::uint64_t last_use = 0;
-  };
-  Way* set_of(LineNumber line) { return ways_of_all_.data() + (line & set_mask_) * ways_; }
+  LineNumber* set_of(LineNumber line) { return lines_.data() + (line & set_mask_) * ways_; }
+  /// What stands before `place` moves back by one.
+  static void put_first(LineNumber* set, std::size_t place, LineNumber line) {
+    for (; place > 0; --place) set[place] = set[place - 1];
+    set[0] = line;
+  }
 
   std::size_t ways_;
   LineNumber set_mask_;
-  std::vector<Way> ways_of_all_;
-  std::uint64_t uses_ = 0, evictions_ = 0;
+  std::vector<LineNumber> lines_;
+  std::uint64_t evictions_ = 0;
 };
 
 inline constexpr int kMaxMissRegisters = 64;

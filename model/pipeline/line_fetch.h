@@ -21,6 +21,7 @@
 #include <bit>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "model/pipeline/cache.h"
 #include "model/pipeline/context.h"
@@ -56,9 +57,35 @@ class LineFetch {
         ports_(cache.ports),
         hit_latency_(static_cast<Cycle>(cache.hit_latency)),
         tags_(cache, line_bytes),
-        mshrs_(cache.mshrs) {}
+        mshrs_(cache.mshrs),
+        reading_(std::bit_ceil(static_cast<unsigned>(contexts.count()))),
+        ring_mask_(static_cast<std::uint32_t>(reading_.size() - 1)),
+        again_(Lines::kRounds == 1 ? 0 : reading_.size()) {}
 
   bool step(Cycle now) {
+    if (nothing_to_do(now)) {  // most cycles, so settled at once
+      account.set(now, activity(Activity::Idle, false, false));
+      return false;
+    }
+    return work(now);
+  }
+  Cycle next_event(Cycle) const {
+    return reading_head_ == reading_tail_ ? kNever : reading_[reading_head_ & ring_mask_].due;
+  }
+
+  const Counters& counters() const { return counters_; }
+  const CacheTags& tags() const { return tags_; }
+  const MissRegisters& mshrs() const { return mshrs_; }
+
+  Account account;
+
+ private:
+  bool nothing_to_do(Cycle now) const {
+    return !active_ && !can_start_again(now) && !requests.can_pop(now) && !fills.can_pop(now) && finished_.empty() &&
+           next_event(now) > now;
+  }
+
+  [[gnu::noinline]] bool work(Cycle now) {
     bool blocked_by_output = false;
     bool moved = present(now, blocked_by_output);
     const bool filled = fill(now);
@@ -74,18 +101,6 @@ class LineFetch {
     account.set(now, activity(lookup, moved, blocked_by_output));
     return moved;
   }
-  Cycle next_event(Cycle) const {
-    return reading_head_ == reading_tail_ ? kNever : reading_[reading_head_ & kRingMask].due;
-  }
-
-  const Counters& counters() const { return counters_; }
-  const CacheTags& tags() const { return tags_; }
-  const MissRegisters& mshrs() const { return mshrs_; }
-
-  Account account;
-
- private:
-  static constexpr std::uint32_t kRingMask = kMaxContexts - 1;
 
   bool present(Cycle now, bool& blocked) {
     if (finished_.empty()) return false;
@@ -112,8 +127,8 @@ class LineFetch {
   }
 
   bool read_data(Cycle now) {
-    if (reading_head_ == reading_tail_ || reading_[reading_head_ & kRingMask].due > now) return false;
-    arrived(now, reading_[reading_head_++ & kRingMask].slot);
+    if (reading_head_ == reading_tail_ || reading_[reading_head_ & ring_mask_].due > now) return false;
+    arrived(now, reading_[reading_head_++ & ring_mask_].slot);
     return true;
   }
 
@@ -122,7 +137,7 @@ class LineFetch {
     if (--waiting_for_[static_cast<std::size_t>(slot)] != 0) return;
     if constexpr (Lines::kRounds > 1) {
       if (lines_.needs_more(token_of_[static_cast<std::size_t>(slot)])) {
-        again_[again_tail_++ & kRingMask] = {static_cast<Slot>(slot), now + 1};
+        again_[again_tail_++ & ring_mask_] = {static_cast<Slot>(slot), now + 1};
         return;
       }
     }
@@ -132,11 +147,11 @@ class LineFetch {
   /// A token whose second lines can be looked up.
   bool can_start_again(Cycle now) const {
     if constexpr (Lines::kRounds == 1) return false;
-    return again_head_ != again_tail_ && again_[again_head_ & kRingMask].due <= now;
+    return again_head_ != again_tail_ && again_[again_head_ & ring_mask_].due <= now;
   }
 
   void start_again() {
-    if constexpr (Lines::kRounds > 1) start(token_of_[again_[again_head_++ & kRingMask].slot]);
+    if constexpr (Lines::kRounds > 1) start(token_of_[again_[again_head_++ & ring_mask_].slot]);
   }
 
   /// Busy: went on as far as the ports allow; Idle: nothing to look up; else why it stands.
@@ -158,7 +173,7 @@ class LineFetch {
       if (outcome != Activity::Busy) return outcome;
       looked_up_something_ = true;
       if (!lines_.next()) {
-        reading_[reading_tail_++ & kRingMask] = {slot_, now + hit_latency_};
+        reading_[reading_tail_++ & ring_mask_] = {slot_, now + hit_latency_};
         active_ = false;
         break;
       }
@@ -233,9 +248,10 @@ class LineFetch {
   bool active_ = false, looked_up_something_ = false;
   Slot slot_ = 0;
   Cycle last_request_ = kNever;
-  std::array<Read, kMaxContexts> reading_{};
+  std::vector<Read> reading_;  // a ring with a place for every context: small, to stay near
+  std::uint32_t ring_mask_;
   std::uint32_t reading_head_ = 0, reading_tail_ = 0;
-  std::array<Read, Lines::kRounds == 1 ? 1 : kMaxContexts> again_{};
+  std::vector<Read> again_;  // likewise, of tokens with more lines to come
   std::uint32_t again_head_ = 0, again_tail_ = 0;
   std::array<Token, kMaxContexts> token_of_{};
   std::array<std::uint8_t, kMaxContexts> waiting_for_{};

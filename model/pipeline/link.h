@@ -12,32 +12,34 @@
 
 namespace ctu::pipeline {
 
-/// Kept as the answers themselves, since every stage asks in every cycle: from which cycle on the front can be popped,
-/// and from which on there is room.
+/// Each of the two places keeps from which cycle on its token can be popped, and from which on it is free: every stage
+/// asks in every cycle, and nothing branches on how full the link is, which no processor predicts.
 template <class T>
 class Link {
  public:
-  bool can_pop(Cycle now) const { return front_from_ <= now; }
-  bool can_push(Cycle now) const { return room_from_ <= now; }
-  const T& front() const { return entry_[head_]; }
-  /// What stands behind the front was pushed in this cycle at the latest, so it can go from the next one on.
+  bool can_pop(Cycle now) const { return place_[head_].ready_from <= now; }
+  bool can_push(Cycle now) const { return place_[tail_].free_from <= now; }
+  const T& front() const { return place_[head_].token; }
   void pop(Cycle now) {
-    if (count_ == 2) room_from_ = now + 1;
+    place_[head_].ready_from = kNever;
+    place_[head_].free_from = now + 1;
     head_ ^= 1u;
-    --count_;
-    front_from_ = count_ > 0 ? now + 1 : kNever;
   }
-  void push(Cycle now, const T& value) {
-    if (count_ == 0) front_from_ = now + 1;
-    entry_[head_ ^ count_] = value;
-    if (++count_ == 2) room_from_ = kNever;
+  void push(Cycle now, const T& token) {
+    place_[tail_].ready_from = now + 1;
+    place_[tail_].free_from = kNever;
+    place_[tail_].token = token;
+    tail_ ^= 1u;
   }
-  int occupancy() const { return static_cast<int>(count_); }
+  int occupancy() const { return (place_[0].ready_from != kNever) + (place_[1].ready_from != kNever); }
 
  private:
-  Cycle front_from_ = kNever, room_from_ = 0;
-  std::uint32_t head_ = 0, count_ = 0;
-  T entry_[2] = {};
+  struct Place {
+    Cycle ready_from = kNever, free_from = 0;
+    T token{};
+  };
+  std::uint32_t head_ = 0, tail_ = 0;
+  Place place_[2];
 };
 
 /// How stages and links are joined. A stage names its ports Wiring::In<T> and Wiring::Out<T> and knows nothing else, so

@@ -5,7 +5,7 @@
 
 namespace ctu::pipeline {
 
-BankedMemory::BankedMemory(const MemoryConfig& config)
+BankedMemory::BankedMemory(const MemoryConfig& config, std::size_t most_reads)
     : config_(config),
       line_shift_(std::countr_zero(static_cast<unsigned>(config.line_bytes))),
       queue_depth_(static_cast<std::size_t>(config.queue_depth)),
@@ -16,8 +16,7 @@ BankedMemory::BankedMemory(const MemoryConfig& config)
     Channel& channel = channels_[c];
     channel.queue.reserve(queue_depth_);
     channel.banks.resize(static_cast<std::size_t>(config.banks));
-    channel.answers.resize(512);
-    static_assert(512 >= kMaxOutstandingReads);
+    channel.answers.resize(std::bit_ceil(most_reads));
     // Channels refresh one after the other, not all at once.
     if (config.t_rfc > 0) channel.next_refresh = static_cast<Cycle>(config.t_refi) * (c + 1) / channels_.size();
   }
@@ -81,7 +80,7 @@ void BankedMemory::serve(Channel& channel, std::size_t chosen, Cycle now) {
   channel.bus_free = data + burst;
   counters_.bus_cycles += burst;
   if (waiting.request.request.write) return;
-  const std::size_t place = (channel.first_answer + channel.answer_count++) % channel.answers.size();
+  const std::size_t place = (channel.first_answer + channel.answer_count++) & (channel.answers.size() - 1);
   channel.answers[place] = {{waiting.request.client, waiting.request.request.id},
                             data + burst + static_cast<Cycle>(config_.front_latency)};
   find_next_answer();
@@ -133,7 +132,7 @@ void BankedMemory::find_next_answer() {
 
 void BankedMemory::take_answer() {
   Channel& channel = channels_[answering_];
-  channel.first_answer = (channel.first_answer + 1) % channel.answers.size();
+  channel.first_answer = (channel.first_answer + 1) & (channel.answers.size() - 1);
   --channel.answer_count;
   --unanswered_;
   find_next_answer();

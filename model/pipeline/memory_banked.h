@@ -18,13 +18,16 @@ namespace ctu::pipeline {
 
 class BankedMemory {
  public:
-  explicit BankedMemory(const MemoryConfig& config);
+  /// `most_reads`: that can be under way at once.
+  explicit BankedMemory(const MemoryConfig& config, std::size_t most_reads = kMaxOutstandingReads);
 
   /// Room in the queue of the channel that the address belongs to.
   bool can_accept(std::uint64_t address) const { return channels_[channel_of(address)].queue.size() < queue_depth_; }
   void accept(Cycle now, const ClientRequest& request);
   /// One cycle: each channel decides about its next data slot if it is time to. Whether one did.
   bool work(Cycle now);
+  /// Whether an answer is ready or work is to be done.
+  bool due(Cycle now) const { return earlier(next_answer_, next_decision_) <= now; }
   bool answer_ready(Cycle now) const { return next_answer_ <= now; }
   const ClientAnswer& answer() const {
     return channels_[answering_].answers[channels_[answering_].first_answer].answer;

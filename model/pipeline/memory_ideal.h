@@ -29,6 +29,8 @@ class IdealMemory {
   const ClientAnswer& answer() const { return ring_[head_ & (ring_.size() - 1)].answer; }
   void take_answer() { ++head_; }
   bool work(Cycle) { return false; }
+  /// Whether an answer is ready or work is to be done.
+  bool due(Cycle now) const { return answer_ready(now); }
   bool empty() const { return head_ == tail_; }
 
   Cycle next_event(Cycle now) const {

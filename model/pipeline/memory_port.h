@@ -28,7 +28,7 @@ class MemoryPort {
       : clients_(static_cast<int>(last) + 1),
         banked_(config.memory.model == MemoryModel::Banked),
         ideal_memory_(config.memory),
-        banked_memory_(config.memory) {}
+        banked_memory_(config.memory, most_reads(config)) {}
 
   bool step(Cycle now) { return banked_ ? step_over(banked_memory_, now) : step_over(ideal_memory_, now); }
   Cycle next_event(Cycle now) const { return banked_ ? banked_memory_.next_event(now) : ideal_memory_.next_event(now); }
@@ -40,8 +40,22 @@ class MemoryPort {
   Account account{kName, {Activity::OutputFull, Activity::Memory}};
 
  private:
+  /// Each miss register has one under way, and each context one refill of its stack.
+  static std::size_t most_reads(const UnitConfig& config) {
+    return static_cast<std::size_t>(config.node_cache.mshrs + config.leaf_cache.mshrs + config.table_cache.mshrs +
+                                    config.unit.contexts);
+  }
+
   template <class Memory>
   bool step_over(Memory& memory, Cycle now) {
+    if (!asked(now) && !memory.due(now)) {  // most cycles, so settled at once
+      account.set(now, memory.empty() ? Activity::Idle : Activity::Busy);
+      return false;
+    }
+    return serve(memory, now);
+  }
+  template <class Memory>
+  [[gnu::noinline]] bool serve(Memory& memory, Cycle now) {
     bool moved = false, blocked = false;
     if (memory.answer_ready(now)) {
       const ClientAnswer& answer = memory.answer();
@@ -62,6 +76,12 @@ class MemoryPort {
                      : moved || !memory.empty() ? Activity::Busy
                                                 : Activity::Idle);
     return moved;
+  }
+
+  bool asked(Cycle now) const {
+    bool any = false;
+    for (const auto& in : requests) any |= in.can_pop(now);
+    return any;
   }
 
   enum class Grant : std::uint8_t { None, Given, Refused };

@@ -35,15 +35,16 @@ class Pipe {
       frozen_total_ += now - frozen_since_;
       frozen_since_ = kNever;
     }
-    const T token = ring_[head_++ & mask_].token;
-    head_due_ = empty() ? kNever : ring_[head_ & mask_].due;
-    return token;
+    Place& last = ring_[head_++ & mask_];
+    last.due = kNever;
+    head_due_ = ring_[head_ & mask_].due;
+    return last.token;
   }
   /// Enters and keeps the entrance for `occupies` cycles; the token moves on at the end of them.
   void enter(Cycle now, const T& token, Cycle occupies = 1) {
     const Cycle pipe_now = now - frozen_total_;
     const Cycle due = pipe_now + occupies - 1 + latency_;
-    if (empty()) head_due_ = due;
+    head_due_ = earlier(head_due_, due);
     ring_[tail_++ & mask_] = {token, due};
     entry_free_ = pipe_now + occupies;
   }
@@ -58,8 +59,8 @@ class Pipe {
 
  private:
   struct Place {
-    T token;
-    Cycle due;  // in the pipe's own time, which stands still while it is frozen
+    T token{};
+    Cycle due = kNever;  // in the pipe's own time, which stands still while it is frozen; kNever: no token
   };
   Cycle latency_;
   std::vector<Place> ring_;

@@ -9,7 +9,9 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <vector>
 
 #include "model/pipeline/context.h"
 #include "model/pipeline/link.h"
@@ -25,14 +27,16 @@ class ArrivalQueue {
     RefToken token;
     std::uint32_t arrival;
   };
+  explicit ArrivalQueue(int contexts)
+      : ring_(std::bit_ceil(static_cast<unsigned>(contexts))), mask_(static_cast<std::uint32_t>(ring_.size() - 1)) {}
   bool empty() const { return head_ == tail_; }
-  const Entry& front() const { return ring_[head_ & (kMaxContexts - 1)]; }
+  const Entry& front() const { return ring_[head_ & mask_]; }
   void pop() { ++head_; }
-  void push(const Entry& entry) { ring_[tail_++ & (kMaxContexts - 1)] = entry; }
+  void push(const Entry& entry) { ring_[tail_++ & mask_] = entry; }
 
  private:
-  std::array<Entry, kMaxContexts> ring_;
-  std::uint32_t head_ = 0, tail_ = 0;
+  std::vector<Entry> ring_;
+  std::uint32_t mask_, head_ = 0, tail_ = 0;
 };
 
 template <class Source, class Wiring>
@@ -43,7 +47,11 @@ class Scheduler {
   typename Wiring::template Out<RefToken> to_node_fetch, to_leaf_fetch;
 
   Scheduler(const UnitConfig& config, Contexts& contexts, Source& source)
-      : contexts_(contexts), source_(source), policy_(config.scheduler.policy) {}
+      : contexts_(contexts),
+        source_(source),
+        policy_(config.scheduler.policy),
+        node_queue_(contexts.count()),
+        leaf_queue_(contexts.count()) {}
 
   bool step(Cycle now) {
     bool moved = false;
