@@ -52,9 +52,13 @@ void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
   app.add_option("--threads", args.threads, "0: one for each core; results do not depend on it")->capture_default_str();
 }
 
-void add_unit_options(CLI::App& app, UnitArgs& args) {
+void add_config_options(CLI::App& app, UnitArgs& args) {
   app.add_option("-c,--config", args.config_path, "TOML file with the unit's parameters");
   app.add_option("--set", args.sets, "KEY=VALUE over the file; may be repeated")->expected(1)->take_all();
+}
+
+void add_unit_options(CLI::App& app, UnitArgs& args) {
+  add_config_options(app, args);
   app.add_option("--mode", args.mode, "plain, batch, cycle or pins: the same cycles at different speeds")
       ->capture_default_str();
   app.add_option("--source", args.source, "replay recorded outcomes, or exec: compute them")->capture_default_str();
@@ -66,6 +70,7 @@ struct Parsed {
   RunArgs run;
   CompareArgs compare;
   CullingArgs culling;
+  DecideArgs decide;
   HeatmapArgs heatmap;
   TablesArgs tables;
   PaperArgs paper;
@@ -83,8 +88,13 @@ void add_record(CLI::App& app, Parsed& parsed) {
   command->add_option("--designs", parsed.record.designs,
                       "whose event sequences to store, others are derived at a run; without it "
                       "none,mask-lut,comparators, or none when culling is off");
-  command->add_option("--culling", parsed.record.culling, "off: nodes carry no masks, only design none is recorded")
+  command
+      ->add_option(
+          "--culling", parsed.record.culling,
+          "on; off: nodes carry no masks, only design none is recorded; auto: as a simulated sample of the rays "
+          "says that it pays on the unit of -c and --set")
       ->capture_default_str();
+  add_config_options(*command, parsed.record.unit);
   command->add_option("--node-align", parsed.record.node_alignment_bytes, "bytes that a node starts at a multiple of")
       ->capture_default_str();
   command
@@ -123,6 +133,17 @@ void add_culling(CLI::App& app, Parsed& parsed) {
   command->add_option("--designs", parsed.culling.designs, "list of designs")->capture_default_str();
   command->add_flag("--markdown", parsed.culling.markdown, "print the rows of a Markdown table");
   command->callback([&] { parsed.exit_code = culling_command(parsed.culling); });
+}
+
+void add_decide(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand(
+      "decide", "whether culling pays, in which nodes, as a sample of the rays says, and whether all rays agree");
+  add_scene_options(*command, parsed.decide.scene, true);
+  add_config_options(*command, parsed.decide.unit);
+  command->add_option("--pilot", parsed.decide.pilot_rays, "rays that are simulated for each forecast, about")
+      ->capture_default_str();
+  command->add_flag("--markdown", parsed.decide.markdown, "print the rows of a Markdown table");
+  command->callback([&] { parsed.exit_code = decide_command(parsed.decide); });
 }
 
 void add_heatmap(CLI::App& app, Parsed& parsed) {
@@ -229,6 +250,7 @@ int run_cli(int argc, const char* const* argv) {
   add_run(app, parsed);
   add_compare(app, parsed);
   add_culling(app, parsed);
+  add_decide(app, parsed);
   add_heatmap(app, parsed);
   add_tables(app, parsed);
   add_paper(app, parsed);

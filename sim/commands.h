@@ -34,20 +34,21 @@ struct SceneArgs {
   int threads = 0;           ///< 0: all
 };
 
-struct RecordArgs {
-  SceneArgs scene;
-  std::string output;
-  std::string designs;         ///< empty: none,mask-lut,comparators, or none when culling is off
-  std::string culling = "on";  ///< or "off": nodes carry no masks
-  std::uint32_t node_alignment_bytes = 4, triangle_alignment_bytes = 4;
-};
-
 /// Which unit: shared by every command that runs it.
 struct UnitArgs {
   std::string config_path;
   std::vector<std::string> sets;
   std::string mode = "batch";
   std::string source = "replay";
+};
+
+struct RecordArgs {
+  SceneArgs scene;
+  std::string output;
+  std::string designs;         ///< empty: none,mask-lut,comparators, or none when culling is off
+  std::string culling = "on";  ///< "off": nodes carry no masks; "auto": as pays on the unit
+  UnitArgs unit;               ///< that auto decides for: its configuration
+  std::uint32_t node_alignment_bytes = 4, triangle_alignment_bytes = 4;
 };
 
 struct RunArgs {
@@ -69,6 +70,13 @@ struct CompareArgs {
 struct CullingArgs {
   SceneArgs scene;
   std::string designs = "ideal,mask-lut,comparators";
+  bool markdown = false;
+};
+
+struct DecideArgs {
+  SceneArgs scene;
+  UnitArgs unit;
+  std::uint64_t pilot_rays = 32768;
   bool markdown = false;
 };
 
@@ -109,6 +117,7 @@ int record_command(const RecordArgs& args);
 int run_command(const RunArgs& args);
 int compare_command(const CompareArgs& args);
 int culling_command(const CullingArgs& args);
+int decide_command(const DecideArgs& args);
 int heatmap_command(const HeatmapArgs& args);
 int tables_command(const TablesArgs& args);
 int paper_subspace_command(const PaperArgs& args);

@@ -3,6 +3,8 @@
 
 #include "model/base/error.h"
 #include "sim/commands.h"
+#include "sim/config_file.h"
+#include "sim/culling_decision.h"
 #include "sim/loaded_trace.h"
 #include "sim/progress.h"
 #include "sim/scene_args.h"
@@ -32,6 +34,16 @@ void print_differences(const std::vector<traces::Difference>& differences) {
                d.expected.primitive, d.expected.t, static_cast<std::int32_t>(d.culled.primitive), d.culled.t);
 }
 
+void print_culling(const traces::CullingChoice& said) {
+  fmt::print("culling: {} for {} ({})\n", said.choice, said.design, said.why);
+  if (said.forecasts.empty()) return;
+  fmt::print("{:<14}{:>14}{:>14}{:>12}{:>18}   forecast from {} rays\n", "masks", "inters./ray", "cycles/ray",
+             "bytes/node", "nodes with masks", said.pilot_rays);
+  for (const traces::CullingForecast& row : said.forecasts)
+    fmt::print("{:<14}{:>14.3f}{:>14.3f}{:>12}{:>18}\n", row.name, row.intersections_per_ray, row.cycles_per_ray,
+               row.node_bytes, row.masked_nodes);
+}
+
 void print_step(const reference::Step& step, const accel::Bvh4& bvh) {
   if (step.is_leaf()) {
     fmt::print("    leaf  triangles {}..{}{}\n", accel::leaf_first(step.ref),
@@ -56,9 +68,11 @@ std::optional<cull::Design> stored_design(const traces::Manifest& manifest) {
 /// What `record` has beside the options of every scene.
 traces::RecordOptions recorder_options(const RecordArgs& args) {
   traces::RecordOptions options = record_options(args.scene);
-  if (args.culling != "on" && args.culling != "off")
-    throw Error("--culling", fmt::format("\"{}\" is neither on nor off", args.culling), "give on or off");
-  options.with_masks = args.culling == "on";
+  if (args.culling != "on" && args.culling != "off" && args.culling != "auto")
+    throw Error("--culling", fmt::format("\"{}\" is not on, off or auto", args.culling), "give on, off or auto");
+  if (args.culling != "auto" && (!args.unit.config_path.empty() || !args.unit.sets.empty()))
+    throw Error("--config, --set", "a recording is the same for every unit", "leave them out, or give --culling auto");
+  options.with_masks = args.culling != "off";
   if (!options.with_masks && options.masks.entries != 0)
     throw Error("--compress", "without culling there are no masks to compress", "leave it out, or give --culling on");
   if (!args.designs.empty())
@@ -84,6 +98,23 @@ traces::RecordOptions recorder_options(const RecordArgs& args) {
   return options;
 }
 
+/// The trace of a scene whose masks are chosen for the unit; what was chosen and why is printed.
+traces::RecordSummary record_chosen(const scene::Scene& scene, traces::RecordOptions options, const RecordArgs& args,
+                                    const pipeline::UnitConfig& config, const traces::RecordProgress& progress) {
+  traces::RecordedTree tree = traces::build_tree(scene, options);
+  CullingDecision decision = decide_culling(scene, tree.bvh, tree.masks, options, {.config = config});
+  tree.culling = decision.said;
+  tree.masks = decision.masks ? std::move(*decision.masks) : traces::MaskSet{};
+  if (!decision.masks) {
+    options.with_masks = false;
+    options.designs = {cull::Design::None};
+    options.count_only.clear();
+    options.masks.entries = 0;
+  }
+  print_culling(decision.said);
+  return traces::record(scene, options, tree, args.output, progress);
+}
+
 std::string describe_masks(const traces::TraceReader& reader) {
   const cull::MaskOptions& masks = reader.manifest().masks;
   if (reader.manifest().image.shape.layout.mask_bits == 0) return "none; culling is off";
@@ -99,11 +130,15 @@ std::string describe_masks(const traces::TraceReader& reader) {
 
 int record_command(const RecordArgs& args) {
   const traces::RecordOptions options = recorder_options(args);
+  const pipeline::UnitConfig config = load_config(args.unit.config_path, args.unit.sets);
+  if (args.culling == "auto") require_possible(config.mask_test.design, options.masks);
   const scene::Scene scene = load_scene(args.scene, args.scene.scenes.front());
   traces::RecordSummary summary;
   {
     Progress bar("recording", 0, "paths");
-    summary = traces::record(scene, options, args.output, [&](std::uint64_t done, std::uint64_t) { bar.update(done); });
+    const auto progress = [&](std::uint64_t done, std::uint64_t) { bar.update(done); };
+    summary = args.culling == "auto" ? record_chosen(scene, options, args, config, progress)
+                                     : traces::record(scene, options, args.output, progress);
   }
   fmt::print("{}: {} triangles, {} nodes, {:.1f} MB image; {} rays, {:.1f} MB, hash {}\n", args.output,
              summary.triangles, summary.nodes, double(summary.image_bytes) / 1e6, summary.rays,
@@ -130,6 +165,7 @@ int trace_info_command(const TraceArgs& args) {
                           traces::to_string(m.rays.kind), reader.blocks(), m.rays.width, m.rays.height,
                           m.rays.samples_per_pixel, m.rays.seed));
   row("masks", describe_masks(reader));
+  if (!m.culling.choice.empty()) print_culling(m.culling);
   row("image", fmt::format("{} nodes of {} bytes, {} triangles of {} bytes, depth {}", m.image.shape.node_count,
                            m.image.shape.node_stride_bytes, m.image.shape.triangle_count,
                            m.image.shape.triangle_stride_bytes, m.image.shape.depth));

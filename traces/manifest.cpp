@@ -125,11 +125,25 @@ Json to_json_value(const Difference& difference) {
           {"culled", to_json_value(difference.culled)}};
 }
 
+Json to_json_value(const CullingForecast& forecast) {
+  return {{"name", forecast.name},
+          {"cycles_per_ray", forecast.cycles_per_ray},
+          {"intersections_per_ray", forecast.intersections_per_ray},
+          {"node_bytes", forecast.node_bytes},
+          {"masked_nodes", forecast.masked_nodes}};
+}
+
 template <class T>
 Json to_json_list(const std::vector<T>& list) {
   Json json = Json::array();
   for (const T& item : list) json.push_back(to_json_value(item));
   return json;
+}
+
+Json to_json_value(const CullingChoice& culling) {
+  return {{"choice", culling.choice},         {"why", culling.why},
+          {"design", culling.design},         {"config_hash", culling.config_hash},
+          {"pilot_rays", culling.pilot_rays}, {"forecasts", to_json_list(culling.forecasts)}};
 }
 
 // --- from JSON ---------------------------------------------------------------------------------------------------
@@ -187,6 +201,11 @@ class Reader {
     to = value.get<std::string>();
   }
   void get(const char* key, float& to) const { to = number(key, at(key)); }
+  void get(const char* key, double& to) const {
+    const Json& value = at(key);
+    if (!value.is_number()) fail(fmt::format("\"{}\" is not a number", key));
+    to = value.get<double>();
+  }
   void get(const char* key, Vec3& to) const {
     const Json& value = at(key);
     if (!value.is_array() || value.size() != 3) fail(fmt::format("\"{}\" is not three numbers", key));
@@ -288,6 +307,23 @@ void read(const Reader& from, cull::MaskOptions& to) {
   from.get("selection", to.selection);
 }
 
+void read(const Reader& from, CullingForecast& to) {
+  from.get("name", to.name);
+  from.get("cycles_per_ray", to.cycles_per_ray);
+  from.get("intersections_per_ray", to.intersections_per_ray);
+  from.get("node_bytes", to.node_bytes);
+  from.get("masked_nodes", to.masked_nodes);
+}
+
+void read(const Reader& from, CullingChoice& to) {
+  from.get("choice", to.choice);
+  from.get("why", to.why);
+  from.get("design", to.design);
+  from.get("config_hash", to.config_hash);
+  from.get("pilot_rays", to.pilot_rays);
+  from.each("forecasts", [&](const Reader& item) { read(item, to.forecasts.emplace_back()); });
+}
+
 void read(const Reader& from, ImageInfo& to) {
   accel::Image& image = to.shape;
   from.get("mask_bits", image.layout.mask_bits);
@@ -355,6 +391,7 @@ Manifest read_manifest(const Json& json, const std::string& path) {
   read(from.object("rays"), to.rays);
   read(from.object("build"), to.build);
   read(from.object("masks"), to.masks);
+  if (from.has("culling")) read(from.object("culling"), to.culling);
   read(from.object("image"), to.image);
   from.get("ray_count", to.ray_count);
   from.each("designs", [&](const Reader& item) {
@@ -393,6 +430,7 @@ std::string to_json(const Manifest& manifest) {
                {"ray_count", manifest.ray_count},
                {"designs", to_json_list(manifest.designs)},
                {"differences", to_json_list(manifest.differences)}};
+  if (!manifest.culling.choice.empty()) json["culling"] = to_json_value(manifest.culling);
   if (!manifest.cut_from.empty()) {
     json["cut_from"] = manifest.cut_from;
     json["cut_first"] = manifest.cut_first;

@@ -12,6 +12,7 @@
 #include "model/reference/step.h"
 #include "model/scene/scene.h"
 #include "traces/columns.h"
+#include "traces/culling_choice.h"
 #include "traces/ray_options.h"
 
 namespace ctu::traces {
@@ -54,6 +55,7 @@ struct Manifest {
   RayOptions rays;
   accel::BuildOptions build;
   cull::MaskOptions masks;
+  CullingChoice culling;  ///< how it was decided which nodes carry masks; of no effect on what the trace is
   ImageInfo image;
   std::uint64_t ray_count = 0;
   std::vector<DesignCounts> designs;

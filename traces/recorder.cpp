@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -35,12 +34,12 @@ Design tables_of(Design event_class) { return event_class == Design::MaskLut ? D
 
 /// A design at work: its tables and its walk.
 struct Culler {
-  Culler(Design d, bool store, const cull::MaskOptions& masks)
-      : design(d), stored(store), tester(tables_of(d), masks) {}
+  Culler(Design d, bool store, const cull::MaskOptions& masks, const RecordedTree& tree)
+      : design(d), stored(store), tester(tables_of(d), masks), traversal(tree.bvh, &tree.masks.masks, tester) {}
   Design design;
   bool stored;
   cull::MaskTester tester;
-  std::optional<reference::Traversal> traversal;
+  reference::Traversal traversal;
 };
 
 /// The designs asked for, each event class once, those to be stored first.
@@ -120,7 +119,7 @@ class BlockTracer {
                       const std::vector<intersect::Hit>& expected, StepList& steps, DesignCounts& counts,
                       std::vector<Difference>& differences) {
     for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-      const intersect::Hit hit = culler.traversal->trace(rays[ray], &steps);
+      const intersect::Hit hit = culler.traversal.trace(rays[ray], &steps);
       if (same_bits(hit, expected[ray])) continue;
       ++counts.different_hits;
       differences.push_back({culler.design, ray, expected[ray], hit});
@@ -197,51 +196,58 @@ void check_options(const RecordOptions& options) {
       throw Error("record", fmt::format("design {} without masks", cull::to_string(design)), "record design none only");
 }
 
-/// The masks that the walks ask and the nodes carry; empty when they carry none.
-MaskSet masks_for(const accel::Bvh4& bvh, const RecordOptions& options, RecordSummary& summary) {
-  if (!options.with_masks) return {};
-  auto start = std::chrono::steady_clock::now();
-  cull::ObjectMasks masks = cull::build_object_masks(bvh, options.masks, options.threads);
-  summary.mask_seconds = seconds_since(start);
-  start = std::chrono::steady_clock::now();
-  MaskSet set = mask_set(bvh, std::move(masks), options.masks, options.threads);
-  summary.compression_seconds = seconds_since(start);
-  summary.compression_entries = set.lut ? set.lut->entries() : 0;
-  return set;
-}
-
 }  // namespace
+
+RecordedTree build_tree(const scene::Scene& scene, const RecordOptions& options) {
+  check_options(options);
+  RecordedTree tree;
+  auto start = std::chrono::steady_clock::now();
+  tree.bvh = accel::build(scene.mesh, options.build);
+  tree.build_seconds = seconds_since(start);
+  if (!options.with_masks) return tree;
+  start = std::chrono::steady_clock::now();
+  cull::ObjectMasks masks = cull::build_object_masks(tree.bvh, options.masks, options.threads);
+  tree.mask_seconds = seconds_since(start);
+  start = std::chrono::steady_clock::now();
+  tree.masks = mask_set(tree.bvh, std::move(masks), options.masks, options.threads);
+  tree.compression_seconds = seconds_since(start);
+  return tree;
+}
 
 RecordSummary record(const scene::Scene& scene, const RecordOptions& options, const std::string& path,
                      const RecordProgress& progress) {
+  return record(scene, options, build_tree(scene, options), path, progress);
+}
+
+RecordSummary record(const scene::Scene& scene, const RecordOptions& options, const RecordedTree& tree,
+                     const std::string& path, const RecordProgress& progress) {
   check_options(options);
   const RayGenerator generator(scene, options.rays);
-  const Manifest manifest = make_manifest(scene, options);
-  std::vector<std::unique_ptr<Culler>> cullers;
-  for (const DesignCounts& entry : manifest.designs)
-    cullers.push_back(std::make_unique<Culler>(entry.design, entry.stored, options.masks));
+  Manifest manifest = make_manifest(scene, options);
+  manifest.culling = tree.culling;
   RecordSummary summary;
   summary.designs = manifest.designs;
+  summary.build_seconds = tree.build_seconds;
+  summary.mask_seconds = tree.mask_seconds;
+  summary.compression_seconds = tree.compression_seconds;
+  summary.compression_entries = tree.masks.lut ? tree.masks.lut->entries() : 0;
 
-  auto start = std::chrono::steady_clock::now();
-  const accel::Bvh4 bvh = accel::build(scene.mesh, options.build);
-  summary.build_seconds = seconds_since(start);
-  const MaskSet set = masks_for(bvh, options, summary);
-
-  start = std::chrono::steady_clock::now();
+  const auto start = std::chrono::steady_clock::now();
   const auto make_writer = [&] {  // the image is large and needed only here
-    const accel::Image image = image_of(bvh, options.with_masks ? &set : nullptr, options.layout);
+    const accel::Image image = image_of(tree.bvh, options.with_masks ? &tree.masks : nullptr, options.layout);
     summary.image_bytes = image.bytes.size();
     summary.nodes = image.node_count;
     summary.node_stride_bytes = image.node_stride_bytes;
     summary.triangles = image.triangle_count;
-    return std::make_unique<TraceWriter>(path, manifest, image, set.lut.get());
+    return std::make_unique<TraceWriter>(path, manifest, image, tree.masks.lut.get());
   };
   const std::unique_ptr<TraceWriter> writer = make_writer();
 
   const cull::MaskTester no_culling(Design::None, options.masks);
-  const reference::Traversal expected(bvh, nullptr, no_culling);
-  for (const auto& culler : cullers) culler->traversal.emplace(bvh, &set.masks, culler->tester);
+  const reference::Traversal expected(tree.bvh, nullptr, no_culling);
+  std::vector<std::unique_ptr<Culler>> cullers;
+  for (const DesignCounts& entry : manifest.designs)
+    cullers.push_back(std::make_unique<Culler>(entry.design, entry.stored, options.masks, tree));
   const BlockTracer tracer(generator, cullers, expected);
 
   OrderedSink sink(*writer, summary);

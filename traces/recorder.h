@@ -10,7 +10,9 @@
 #include "model/accel/image.h"
 #include "model/cull/options.h"
 #include "model/scene/scene.h"
+#include "traces/culling_choice.h"
 #include "traces/manifest.h"
+#include "traces/mask_set.h"
 #include "traces/ray_options.h"
 
 namespace ctu::traces {
@@ -28,6 +30,17 @@ struct RecordOptions {
   float strand_thickness = 0;            ///< as the scene was loaded, for the manifest
   int threads = 1;                       ///< the file is the same for any number
 };
+
+/// What rays are recorded on.
+struct RecordedTree {
+  accel::Bvh4 bvh;
+  MaskSet masks;          ///< empty when nodes carry none
+  CullingChoice culling;  ///< for the manifest, when somebody chose the masks
+  double build_seconds = 0, mask_seconds = 0, compression_seconds = 0;
+};
+
+/// The tree of a scene with all masks, or none, as the options say. Throws Error on options out of range.
+RecordedTree build_tree(const scene::Scene& scene, const RecordOptions& options);
 
 struct RecordSummary {
   std::uint64_t rays = 0;
@@ -49,5 +62,10 @@ using RecordProgress = std::function<void(std::uint64_t done, std::uint64_t tota
 /// the one without as the expected hit. Throws Error on options out of range and on a file that cannot be written.
 RecordSummary record(const scene::Scene& scene, const RecordOptions& options, const std::string& path,
                      const RecordProgress& progress = {});
+
+/// The same on a tree that is there, whose masks may have been chosen since: all, some or (options.with_masks false)
+/// none.
+RecordSummary record(const scene::Scene& scene, const RecordOptions& options, const RecordedTree& tree,
+                     const std::string& path, const RecordProgress& progress = {});
 
 }  // namespace ctu::traces
