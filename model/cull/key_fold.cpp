@@ -29,7 +29,7 @@ ReverseFold::ReverseFold(int ray_resolution, bool leave_out_inner) : cells_(1u <
 template <int Axes>
 MirrorFold<Axes>::MirrorFold(int ray_resolution, bool leave_out_inner)
     : n_(ray_resolution),
-      pairs_of_axis_(static_cast<std::size_t>(ray_resolution * ray_resolution)),
+      pairs_of_axis_(static_cast<std::uint32_t>(ray_resolution * ray_resolution)),
       left_out_from_(leave_out_inner ? kInner : kStates),
       pairs_(pairs_of_axis_),
       steps_(static_cast<std::size_t>(Axes * kStates) * pairs_of_axis_) {
@@ -39,7 +39,7 @@ MirrorFold<Axes>::MirrorFold(int ray_resolution, bool leave_out_inner)
     for (int begin = 0; begin < n_; ++begin) {
       const int sum = is_ascending(begin, end) ? begin + end : 2 * last - begin - end;
       const int side = begin == end ? 0 : (sum > last) - (sum < last);
-      pairs_[pair_of(begin, end)] = {static_cast<std::int8_t>(side), static_cast<std::uint32_t>(pair_of(end, begin))};
+      pairs_[pair_of(begin, end)] = {side, static_cast<std::uint32_t>(pair_of(end, begin))};
     }
 
   // From the axis that is read last: how many rows each state may still come to.
@@ -56,14 +56,16 @@ MirrorFold<Axes>::MirrorFold(int ray_resolution, bool leave_out_inner)
           const bool decided = (state & 1) != 0;
           if (!decided && side > 0) continue;  // its reverse is taken instead
           const unsigned next = ((state & 1) | decides) | (state & inner);
-          Step* steps = steps_.data() + (static_cast<std::size_t>(axis * kStates) + state) * pairs_of_axis_;
-          steps[pair_of(begin, end)] = steps[pair_of(last - begin, last - end)] = {rows_before[state], next};
+          Step* steps = steps_.data() + table_of(axis, state);
+          steps[pair_of(begin, end)] =
+              steps[pair_of(last - begin, last - end)] = {rows_before[state], table_of(axis - 1, next)};
           rows_before[state] += rows_from[next];
         }
       }
     for (unsigned state = 0; state < kStates; ++state) rows_from[state] = rows_before[state];
   }
   rows_ = rows_from[kStart];
+  start_ = table_of(Axes - 1, kStart);
 }
 
 template <int Axes>

@@ -72,15 +72,13 @@ class MirrorFold {
   /// kNoRow when it was left out.
   std::uint32_t row(Pairs pairs) const {
     orient(pairs);
-    std::uint32_t row = 0;
-    unsigned state = kStart;
+    std::uint32_t row = 0, table = start_;
     for (int axis = Axes - 1; axis >= 0; --axis) {
-      const Step step =
-          steps_[static_cast<std::size_t>(axis * kStates + static_cast<int>(state)) * pairs_of_axis_ + pairs.of[axis]];
+      const Step step = steps_[table + pairs.of[axis]];
       row += step.rows_before;
-      state = step.next;
+      table = step.next;
     }
-    return state >= left_out_from_ ? kNoRow : row;
+    return row | table;  // the last table is 0, or kNoRow where there is no row
   }
 
   FoldedKey fold(Pairs pairs) const;
@@ -91,24 +89,31 @@ class MirrorFold {
   static constexpr unsigned kStart = 2, kInner = 2;
   struct Step {
     std::uint32_t rows_before = 0;
-    std::uint32_t next = 0;
+    std::uint32_t next = 0;  ///< where the next axis' steps begin, for the state that this pair leads to
   };
   /// Of a pair, the same for its mirrored form.
   struct Pair {
-    std::int8_t side = 0;  ///< 0: its own mirrored reverse; otherwise -1 for one of the two and 1 for the other
+    std::int32_t side = 0;  ///< 0: its own mirrored reverse; otherwise -1 for one of the two and 1 for the other
     std::uint32_t reversed = 0;
   };
 
+  /// Where the steps of an axis begin for a state; past the last axis what row() adds at the end.
+  std::uint32_t table_of(int axis, unsigned state) const {
+    if (axis < 0) return state >= left_out_from_ ? kNoRow : 0;
+    return (static_cast<std::uint32_t>(axis * kStates) + state) * pairs_of_axis_;
+  }
+
   void orient(Pairs& pairs) const {
+    // The last axis that is not 0 decides; as a sum, because rays make branches hard to foresee.
     int side = 0;
-    for (int axis = Axes - 1; axis >= 0 && side == 0; --axis) side = pairs_[pairs.of[axis]].side;
-    if (side <= 0) return;
-    for (std::uint32_t& pair : pairs.of) pair = pairs_[pair].reversed;
+    for (int axis = Axes - 1; axis >= 0; --axis) side = 2 * side + pairs_[pairs.of[axis]].side;
+    const std::uint32_t other = side > 0 ? ~std::uint32_t{0} : 0;
+    for (std::uint32_t& pair : pairs.of) pair ^= (pair ^ pairs_[pair].reversed) & other;
   }
   bool is_ascending(int begin, int end) const { return begin < end || (begin == end && 2 * begin <= n_ - 1); }
 
   int n_ = 0;
-  std::size_t pairs_of_axis_ = 0;
+  std::uint32_t pairs_of_axis_ = 0, start_ = 0;
   std::uint32_t rows_ = 0;
   unsigned left_out_from_ = kStates;  ///< final states from here on have no row
   std::vector<Pair> pairs_;
