@@ -189,6 +189,7 @@ void add_paper(CLI::App& app, Parsed& parsed) {
   subspace->add_option("--bounces", scene.bounces, "diffuse bounces after the primary ray, at most")
       ->capture_default_str();
   subspace->add_option("--seed", scene.seed, "seed of every random number")->capture_default_str();
+  subspace->add_option("--turn", scene.turn, "degrees X,Y,Z by which scene and camera are turned about the axes");
   subspace->add_option("--leaf", scene.leaf_triangles, "triangles in a leaf, at most")->capture_default_str();
   subspace->add_option("--threads", scene.threads, "0: one for each core")->capture_default_str();
   subspace->callback([&] { parsed.exit_code = paper_subspace_command(args); });

@@ -63,6 +63,15 @@ variant() {  # LABEL SCENE OPTION...
   echo "$cells"
 }
 
+# One row: what 256 entries cost a scene of hair against uncompressed masks.
+compressed_variant() {  # LABEL SCENE OPTION...
+  local label=$1
+  shift
+  keep row "$program" paper subspace --index "$index" "$@" --size 64x36 --spp 1 --out "$scratch/variant"
+  awk -F, -v label="$label" 'NR > 1 { cells = cells sprintf(" %+.1f | %+.1f | %+.1f |", $6 - $4, $7 - $4, $8 - $4) }
+    END { print "| " label " |" cells }' "$scratch/variant/table1.csv"
+}
+
 variants() {
   {
     echo "| scene | intersections/ray | R = 4: ideal | LUT, R_ray = R | R = 6: ideal | LUT, R_ray = R |"
@@ -74,8 +83,14 @@ variants() {
       done
       variant "... as filed, ribbons a fifth as wide" straight-hair --thickness 0.02
       variant "... as filed, one triangle a leaf" straight-hair --leaf 1
-      variant "... as filed, seen from inside the hair (field of view 15 degrees)" straight-hair --fov 15
+      variant "... as filed, seen from nearby (field of view 15 degrees)" straight-hair --fov 15
       echo "| *paper: Straight Hair* | | 56.5 % | 61.4 % | 42.5 % | 49.3 % |"
+    fi
+    if grep -q '^ratboy-mohawk ' "$index"; then
+      variant "ratboy-mohawk as filed" ratboy-mohawk
+      variant "... seen from nearby (field of view 10 degrees)" ratboy-mohawk --fov 10
+      variant "... and ribbons of 0.0001" ratboy-mohawk --fov 10 --thickness 0.0001
+      variant "... and one triangle a leaf" ratboy-mohawk --fov 10 --thickness 0.0001 --leaf 1
     fi
     local segments
     for segments in 8 4 2; do
@@ -83,9 +98,19 @@ variants() {
     done
     echo "| *paper: Hairball* | | 67.0 % | 71.5 % | 54.4 % | 61.1 % |"
     variant "gen:curly-hair as it is" gen:curly-hair
-    variant "gen:curly-hair, 20,000 strands of 16 segments, a quarter as wide, one triangle a leaf" \
-      "gen:curly-hair?strands=20000&segments=16&thickness=0.0005" --leaf 1
+    variant "... 20,000 strands of 8 segments instead of 2,000 of 32" "gen:curly-hair?strands=20000&segments=8"
+    variant "... and a quarter as wide" "gen:curly-hair?strands=20000&segments=8&thickness=0.0005"
+    variant "... and one triangle a leaf" "gen:curly-hair?strands=20000&segments=8&thickness=0.0005" --leaf 1
     echo "| *paper: Curly Hair* | | 57.5 % | 62.5 % | 43.3 % | 50.6 % |"
+    if grep -q '^straight-hair ' "$index"; then
+      printf '\nWhat 256 entries cost against uncompressed masks, R_ray = R, in points:\n\n'
+      echo "| scene | R = 4: importance per node | summed | our selection | R = 6: importance per node | summed | our selection |"
+      echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"
+      compressed_variant "straight-hair as filed" straight-hair
+      compressed_variant "... turned by 12 degrees about x and y" straight-hair --turn 12,12,0
+      compressed_variant "... and one triangle a leaf" straight-hair --turn 12,12,0 --leaf 1
+      echo "| *paper: Straight Hair* | +0.7 | | | +4.3 | | |"
+    fi
   } >"$scratch/variants"
   put variants
 }

@@ -43,11 +43,15 @@ paper::MeasureOptions measure_options(const PaperArgs& args, const traces::Recor
 
 std::string describe(const traces::RecordOptions& options, const paper::MeasureOptions& measure) {
   const auto& rays = options.rays;
+  const int every = measure.survey.timed_every;
   return fmt::format(
-      "{} x {} pixels, {} samples per pixel, up to {} diffuse bounces, seed {}; unlimited L but where L is said, up to "
-      "{} triangles a leaf, {} threads; time: median of {} interleaved repeats over the rays of one in {} chunks.\n\n",
-      rays.width, rays.height, rays.samples_per_pixel, rays.bounces, rays.seed, options.build.max_leaf_triangles,
-      options.threads, measure.survey.timed_repeats, measure.survey.timed_every);
+      "{} x {} pixels, {} sample{} per pixel, up to {} diffuse bounces, seed {}; unlimited L but where L is said, up "
+      "to "
+      "{} triangles a leaf, {} threads. Times are processor times; those of Table 2 are medians of {} interleaved "
+      "repeats over {} rays.\n\n",
+      rays.width, rays.height, rays.samples_per_pixel, rays.samples_per_pixel == 1 ? "" : "s", rays.bounces, rays.seed,
+      options.build.max_leaf_triangles, options.threads, measure.survey.timed_repeats,
+      every == 1 ? std::string("all") : fmt::format("one in {}", every));
 }
 
 paper::SceneResult measure_scene(const ListedScene& listed, const scene::Scene& scene,

@@ -24,13 +24,13 @@ std::string level_data(const std::vector<SceneResult>& results) {
 /// A line for each scene and resolution, the paper's values behind ours; nan where the paper has none.
 std::string ratio_data(const std::vector<SceneResult>& results) {
   std::string text =
-      "scene,R,ideal,lut,lut_double,compressed_paper,compressed_ours,"
+      "scene,R,ideal,lut,lut_double,compressed_paper,compressed_summed,compressed_ours,"
       "published_ideal,published_lut,published_lut_double,published_compressed\n";
   for (const SceneResult& scene : results)
     for (std::size_t r = 0; r < kResolutions.size(); ++r) {
       text += fmt::format("{},{}", scene.name, kResolutions[r]);
-      for (const Column column :
-           {Column::Ideal, Column::Lut, Column::LutDouble, Column::CompressedPaper, Column::CompressedOurs})
+      for (const Column column : {Column::Ideal, Column::Lut, Column::LutDouble, Column::CompressedPaper,
+                                  Column::CompressedSummed, Column::CompressedOurs})
         text += fmt::format(",{:.3f}", scene.at[r].columns[static_cast<std::size_t>(column)].percent);
       const Counterpart paper = counterpart(scene.name);
       if (paper.scene == nullptr) {
@@ -98,14 +98,14 @@ set yrange [0:100]
 set ylabel 'intersections, % of no culling'
 set xtics rotate by -35 font ',10'
 set key outside right top samplen 2 font ',10'
-colors = '#1f77b4 #2ca02c #98df8a #d62728 #ff9896'
-title_of(i) = i == 1 ? 'ideal' : i == 2 ? 'R_ray = R' : i == 3 ? 'R_ray = 2R' : i == 4 ? '256, paper''s' : '256, ours'
-width = 1.0 / 6.5
+colors = '#1f77b4 #2ca02c #98df8a #d62728 #ff7f0e #ff9896'
+title_of(i) = i == 1 ? 'ideal' : i == 2 ? 'R_ray = R' : i == 3 ? 'R_ray = 2R' : i == 4 ? '256, per node' : i == 5 ? '256, summed' : '256, ours'
+width = 1.0 / 7.5
 do for [r = 4:6:2] {
   set title sprintf('R = %d (dots: published)', r)
   file = sprintf('< awk -F, ''NR > 1 && $2 == %d'' table1.csv', r)
-  plot for [i = 1:5] file using (column(i + 2)):xtic(1) lc rgb word(colors, i) title title_of(i), \
-       for [i = 1:4] file using ($0 + (i - 3) * width):(column(i + 7)) with points pt 7 ps 0.5 lc rgb 'black' \
+  plot for [i = 1:6] file using (column(i + 2)):xtic(1) lc rgb word(colors, i) title title_of(i), \
+       for [i = 1:4] file using ($0 + (i - 3.5) * width):(column(i + 8)) with points pt 7 ps 0.5 lc rgb 'black' \
          title (i == 1 ? 'published' : '')
 }
 unset multiplot

@@ -30,9 +30,9 @@ const char* title(Column column) {
     case Column::LutDouble:
       return "LUT, R_ray = 2R";
     case Column::CompressedPaper:
-      return "256 entries, paper's selection";
+      return "256 entries, importance per node";
     case Column::CompressedSummed:
-      return "256 entries, summed over equal masks";
+      return "256 entries, importance summed";
     case Column::CompressedOurs:
       return "256 entries, our selection";
     case Column::BitTable:
@@ -64,7 +64,10 @@ class Table {
 };
 
 std::string percent(double value) { return fmt::format("{:.1f} %", value); }
-std::string milliseconds(double seconds) { return fmt::format("{:.3g}", 1e3 * seconds); }
+/// With three digits, or all before the point.
+std::string milliseconds(double seconds) {
+  return 1e3 * seconds < 100 ? fmt::format("{:.3g}", 1e3 * seconds) : fmt::format("{:.0f}", 1e3 * seconds);
+}
 
 /// "paper: San Miguel (same)", indented below our row.
 std::string paper_row(const Counterpart& paper) {
@@ -109,10 +112,12 @@ struct StepPair {
 
 std::vector<StepPair> steps(const ResolutionResult& ours, const PublishedRatios& paper) {
   const double ideal = ratio(ours, Column::Ideal), lut = ratio(ours, Column::Lut);
+  const double compressed = paper.compressed - paper.lut;
   return {{ideal - 100, paper.ideal - 100},
           {lut - ideal, paper.lut - paper.ideal},
           {ratio(ours, Column::LutDouble) - lut, paper.lut_double - paper.lut},
-          {ratio(ours, Column::CompressedPaper) - lut, paper.compressed - paper.lut}};
+          {ratio(ours, Column::CompressedPaper) - lut, compressed},
+          {ratio(ours, Column::CompressedSummed) - lut, compressed}};
 }
 
 std::string step_cell(const StepPair& step) {
@@ -150,7 +155,7 @@ std::string scene_table(const std::vector<SceneResult>& results) {
 std::string ratio_table(const std::vector<SceneResult>& results, std::size_t r) {
   Cells titles{"scene"};
   for (const Column column : kRatioColumns) titles.emplace_back(title(column));
-  titles.emplace_back("our loss / paper's loss");
+  titles.emplace_back("our loss / loss per node");
   Table table(titles, 1);
   for (const SceneResult& scene : results) {
     Cells cells{scene.name};
@@ -173,25 +178,30 @@ std::string ratio_table(const std::vector<SceneResult>& results, std::size_t r) 
 
 std::string step_table(const std::vector<SceneResult>& results) {
   Table table({"scene", "paper's", "R", "no culling to ideal", "ideal to R_ray = R", "R_ray = R to 2R",
-               "R_ray = R to 256 entries"},
+               "R_ray = R to 256 entries, importance per node", "... summed over equal masks"},
               2);
-  int agreeing = 0, all = 0;
+  std::vector<int> agreeing;
+  int all = 0;
   for (const SceneResult& scene : results) {
     const Counterpart paper = counterpart(scene.name);
     if (paper.scene == nullptr) continue;
     for (std::size_t r = 0; r < kResolutions.size(); ++r) {
       Cells cells{scene.name, fmt::format("{} ({})", paper.scene->name, to_string(paper.kinship)),
                   fmt::format("{}", kResolutions[r])};
-      for (const StepPair& step : steps(scene.at[r], paper.scene->ratios[r])) {
-        cells.push_back(step_cell(step));
-        agreeing += step.agrees();
-        ++all;
+      const std::vector<StepPair> pairs = steps(scene.at[r], paper.scene->ratios[r]);
+      agreeing.resize(pairs.size());
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        cells.push_back(step_cell(pairs[i]));
+        agreeing[i] += pairs[i].agrees();
       }
+      ++all;
       table.add(cells);
     }
   }
-  return table.text() + fmt::format("\n{} of {} steps agree within {:.0f} points; the others are in bold.\n", agreeing,
-                                    all, kAgreementPoints);
+  Cells sum{fmt::format("*within {:.0f} points*", kAgreementPoints), "", ""};
+  for (const int count : agreeing) sum.push_back(fmt::format("{} of {}", count, all));
+  if (all > 0) table.add(sum);
+  return table.text() + "\nThe steps in bold are further apart.\n";
 }
 
 std::string time_table(const std::vector<SceneResult>& results, std::size_t r) {

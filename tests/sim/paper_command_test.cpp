@@ -52,13 +52,13 @@ TEST_F(PaperCommandTest, prints_every_table_and_writes_the_data_of_the_plots) {
   const auto ratios = rows_of(written("table1.csv"));
   ASSERT_EQ(ratios.size(), 4u);
   for (const auto& row : ratios) {
-    ASSERT_EQ(row.size(), 11u);
-    for (std::size_t i = 2; i < 7; ++i) {
+    ASSERT_EQ(row.size(), 12u);
+    for (std::size_t i = 2; i < 8; ++i) {
       EXPECT_GT(std::stod(row[i]), 5) << row[0];
       EXPECT_LE(std::stod(row[i]), 100) << row[0];
     }
   }
-  EXPECT_EQ(ratios[0][7], "67") << "the paper's Hairball, ideal, R = 4";
+  EXPECT_EQ(ratios[0][8], "67") << "the paper's Hairball, ideal, R = 4";
   EXPECT_EQ(rows_of(written("fig8.csv")).size(), 2u * 2 * 6);
 }
 
