@@ -71,6 +71,7 @@ struct Parsed {
   CompareArgs compare;
   CullingArgs culling;
   DecideArgs decide;
+  CompressionArgs compression;
   HeatmapArgs heatmap;
   TablesArgs tables;
   PaperArgs paper;
@@ -144,6 +145,15 @@ void add_decide(CLI::App& app, Parsed& parsed) {
       ->capture_default_str();
   command->add_flag("--markdown", parsed.decide.markdown, "print the rows of a Markdown table");
   command->callback([&] { parsed.exit_code = decide_command(parsed.decide); });
+}
+
+void add_compression(CLI::App& app, Parsed& parsed) {
+  auto* command =
+      app.add_subcommand("compression", "what compressed masks cost with each selection of entries, untimed");
+  add_scene_options(*command, parsed.compression.scene, true);
+  command->add_flag("--ideas", parsed.compression.ideas, "also ideas that did not become a selection");
+  command->add_flag("--markdown", parsed.compression.markdown, "print the rows of a Markdown table");
+  command->callback([&] { parsed.exit_code = compression_command(parsed.compression); });
 }
 
 void add_heatmap(CLI::App& app, Parsed& parsed) {
@@ -252,6 +262,7 @@ int run_cli(int argc, const char* const* argv) {
   add_compare(app, parsed);
   add_culling(app, parsed);
   add_decide(app, parsed);
+  add_compression(app, parsed);
   add_heatmap(app, parsed);
   add_tables(app, parsed);
   add_paper(app, parsed);

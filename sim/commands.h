@@ -80,6 +80,12 @@ struct DecideArgs {
   bool markdown = false;
 };
 
+struct CompressionArgs {
+  SceneArgs scene;
+  bool ideas = false;  ///< rows for ideas that did not become a selection
+  bool markdown = false;
+};
+
 struct HeatmapArgs {
   SceneArgs scene;
   std::string output;
@@ -118,6 +124,7 @@ int run_command(const RunArgs& args);
 int compare_command(const CompareArgs& args);
 int culling_command(const CullingArgs& args);
 int decide_command(const DecideArgs& args);
+int compression_command(const CompressionArgs& args);
 int heatmap_command(const HeatmapArgs& args);
 int tables_command(const TablesArgs& args);
 int paper_subspace_command(const PaperArgs& args);

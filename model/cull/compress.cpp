@@ -1,6 +1,7 @@
 #include "model/cull/compress.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "model/base/parallel.h"
 #include "model/cull/mask_selection.h"
@@ -11,8 +12,18 @@ namespace {
 
 constexpr std::size_t kNodesPerChunk = 4096;
 
-void replace_masks(const accel::Bvh4& bvh, const ObjectMasks& masks, const CompressionLut& lut, int threads,
-                   ObjectMasks& replaced) {
+}  // namespace
+
+ChildWeights selection_weights(const accel::Bvh4& bvh, Selection selection) {
+  return selection == Selection::Refined ? sah_weights(bvh) : area_weights(bvh);
+}
+
+ObjectMasks replace_masks(const accel::Bvh4& bvh, const ObjectMasks& masks, const CompressionLut& lut, int threads) {
+  ObjectMasks replaced;
+  replaced.resolution = masks.resolution;
+  replaced.words = masks.words;
+  replaced.bits.resize(masks.bits.size());
+  replaced.index.resize(bvh.nodes.size() * intersect::kLanes);
   const RequirementLuts search(lut);
   const auto words = static_cast<std::size_t>(masks.words);
   parallel_chunks(bvh.nodes.size(), kNodesPerChunk, threads, [&](std::size_t first, std::size_t last) {
@@ -23,23 +34,14 @@ void replace_masks(const accel::Bvh4& bvh, const ObjectMasks& masks, const Compr
       std::copy_n(lut.entry(entry), words, replaced.bits.data() + child * words);
     }
   });
+  return replaced;
 }
-
-ChildWeights weights_for(const accel::Bvh4& bvh, Selection selection) {
-  return selection == Selection::Refined ? sah_weights(bvh) : area_weights(bvh);
-}
-
-}  // namespace
 
 CompressedMasks compress(const accel::Bvh4& bvh, const ObjectMasks& masks, const MaskOptions& options, int threads) {
-  CompressedMasks result{select_masks(masks, weights_for(bvh, options.selection), options.selection, options.entries),
-                         {}};
-  result.masks.resolution = masks.resolution;
-  result.masks.words = masks.words;
-  result.masks.bits.resize(masks.bits.size());
-  result.masks.index.resize(bvh.nodes.size() * intersect::kLanes);
-  replace_masks(bvh, masks, result.lut, threads, result.masks);
-  return result;
+  CompressionLut lut =
+      select_masks(masks, selection_weights(bvh, options.selection), options.selection, options.entries);
+  ObjectMasks replaced = replace_masks(bvh, masks, lut, threads);
+  return {std::move(lut), std::move(replaced)};
 }
 
 }  // namespace ctu::cull

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kPhases = 2;           // of exchanges, then of cell changes
 constexpr int kMostExchanges = 40;   // rounds of a phase
-constexpr int kMostDescents = 5;     // likewise
-constexpr double kWorthMore = 1e-3;  // a round that lowers the cost by a smaller share is the last of its kind
+constexpr int kMostDescents = 3;     // likewise
+constexpr double kWorthMore = 2e-3;  // a round that lowers the cost by a smaller share is the last of its kind
 
 /// Takes the entries unless they cost more; returns by which share the cost fell.
 template <int R>
@@ -26,7 +26,7 @@ double settle_if_better(MaskClusters<R>& clusters, const std::vector<std::uint64
 /// Many exchanges a round at first; fewer when their estimates, which take each for itself, no longer come true.
 template <int R>
 void exchange(MaskClusters<R>& clusters, int entries) {
-  int moves = std::max(1, entries / 8);
+  int moves = std::max(1, entries / 4);
   for (int round = 0; round < kMostExchanges && moves > 0; ++round) {
     const auto masks = ClusterExchange<R>(clusters).run(moves, static_cast<std::size_t>(entries));
     if (masks.empty()) break;

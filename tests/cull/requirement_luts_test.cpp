@@ -31,6 +31,21 @@ TEST_P(EveryResolution, the_search_finds_the_same_entry_as_brute_force) {
   }
 }
 
+TEST_P(EveryResolution, the_search_from_an_entry_on_finds_the_first_that_holds_the_mask) {
+  SCOPED_TRACE(oracle::seed_note());
+  const int resolution = GetParam();
+  test::RandomMasks masks(oracle::test_seed(), resolution);
+  const CompressionLut lut(resolution, masks.many(600));
+  const RequirementLuts search(lut);
+  for (int i = 0; i < 1000; ++i) {
+    const std::vector<std::uint64_t> mask = masks.one();
+    const int first = masks.integer(0, lut.entries() - 1);
+    int expected = first;
+    while (!holds_all(lut.entry(expected), mask.data(), lut.words())) ++expected;
+    ASSERT_EQ(search.find(mask.data(), first), expected) << "from " << first << ", mask " << test::text(mask);
+  }
+}
+
 TEST_P(EveryResolution, an_entry_finds_itself_and_the_full_mask_finds_the_last) {
   SCOPED_TRACE(oracle::seed_note());
   const int resolution = GetParam();
