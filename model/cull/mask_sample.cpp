@@ -7,6 +7,9 @@
 namespace ctu::cull {
 namespace {
 
+/// With more draws than that, the sample is nearly the whole, and the whole is had without drawing.
+constexpr std::size_t kMostDrawsPerChild = 2;
+
 /// Of every child: the sum up to it of weight times cells not set.
 std::vector<double> running_stakes(const ObjectMasks& masks, const std::vector<double>& weights) {
   const int cells = masks.resolution * masks.resolution * masks.resolution;
@@ -47,8 +50,9 @@ std::vector<double> staked_weights(const std::vector<double>& weights, const std
 
 DistinctMasks sample_masks(const ObjectMasks& masks, const std::vector<double>& weights, std::size_t enough) {
   const std::vector<double> stakes = running_stakes(masks, weights);
+  const std::size_t most_draws = kMostDrawsPerChild * weights.size();
   const bool any = !stakes.empty() && stakes.back() > 0;
-  for (std::size_t draws = 2 * enough; any && 2 * draws < weights.size(); draws *= 4) {
+  for (std::size_t draws = 2 * enough; any && draws < most_draws; draws *= 2) {
     const DistinctMasks sample = distinct_masks(masks, drawn_weights(weights, stakes, static_cast<double>(draws)));
     if (sample.size() >= enough) return sample;
   }

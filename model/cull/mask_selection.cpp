@@ -14,7 +14,13 @@ namespace ctu::cull {
 namespace {
 
 // Different masks that the refined selection works on; docs/compression.md says what more of them would give.
-constexpr std::size_t kSampledMasks = 8192, kSampledMasksPerEntry = 16;
+constexpr std::size_t kSampledMasks = 8192, kSampledMasksPerEntry = 16, kNodesPerSampledMask = 32;
+
+std::size_t enough_masks(const ChildWeights& weights, int entries) {
+  const std::size_t nodes = weights.size() / intersect::kLanes;
+  return std::max(
+      {kSampledMasks, kSampledMasksPerEntry * static_cast<std::size_t>(entries), nodes / kNodesPerSampledMask});
+}
 
 /// The masks that rank first by weight times set bits; equal ranks in the order of the tree. The full mask takes no
 /// place: the LUT has it anyway.
@@ -46,8 +52,7 @@ CompressionLut select_masks(const ObjectMasks& masks, const ChildWeights& weight
                 "choose a value from " + std::to_string(kMinEntries) + " to " + std::to_string(kMaxEntries));
   const auto count = static_cast<std::size_t>(entries - 1);
   if (selection == Selection::Refined) {
-    const std::size_t enough = std::max(kSampledMasks, kSampledMasksPerEntry * static_cast<std::size_t>(entries));
-    const DistinctMasks sample = sample_masks(masks, weights, enough);
+    const DistinctMasks sample = sample_masks(masks, weights, enough_masks(weights, entries));
     const std::vector<std::uint64_t> start = top_masks(sample, sample.sum, masks.resolution, count);
     return CompressionLut(masks.resolution, refine_masks(masks.resolution, sample, start, entries));
   }
