@@ -1,0 +1,48 @@
+# Verilated models of rtl/. Without Verilator everything else is built as ever, and a line at configuration says so.
+option(CTU_RTL "Build and check the SystemVerilog twin, where Verilator is there" ON)
+find_program(CTU_VERILATOR verilator)
+find_program(CTU_YOSYS yosys)
+mark_as_advanced(CTU_VERILATOR CTU_YOSYS)
+
+set(CTU_RTL_CHECKED OFF)
+if(NOT CTU_RTL)
+  message(STATUS "RTL: switched off (CTU_RTL)")
+elseif(NOT CTU_VERILATOR)
+  message(STATUS "RTL: no Verilator here, so rtl/ is not checked (Debian: apt-get install verilator)")
+else()
+  set(CTU_RTL_CHECKED ON)
+  execute_process(COMMAND ${CTU_VERILATOR} --getenv VERILATOR_ROOT
+    OUTPUT_VARIABLE CTU_VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE)
+  message(STATUS "RTL: ${CTU_VERILATOR}, yosys ${CTU_YOSYS}")
+endif()
+
+# Verilator's own runtime, once for all models. Its warnings are not ours.
+function(ctu_verilator_runtime)
+  set(include ${CTU_VERILATOR_ROOT}/include)
+  add_library(ctu_verilated STATIC ${include}/verilated.cpp ${include}/verilated_threads.cpp)
+  target_include_directories(ctu_verilated SYSTEM PUBLIC ${include} ${include}/vltstd)
+  target_compile_options(ctu_verilated PRIVATE -w)
+  target_link_libraries(ctu_verilated PUBLIC Threads::Threads)
+endfunction()
+
+# ctu_verilate(library PREFIX Vname TOP module SOURCES a.sv ... [ARGS -DX -GY=1 ...])
+# One model as a static library; `#include "Vname.h"`. All of its C++ is one translation unit.
+function(ctu_verilate library)
+  cmake_parse_arguments(ARG "" "PREFIX;TOP" "SOURCES;ARGS" ${ARGN})
+  if(NOT TARGET ctu_verilated)
+    ctu_verilator_runtime()
+  endif()
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/${ARG_PREFIX})
+  add_custom_command(
+    OUTPUT ${folder}/all.cpp ${folder}/${ARG_PREFIX}.h
+    COMMAND ${CTU_VERILATOR} --cc -O3 -I${PROJECT_SOURCE_DIR}/rtl --Mdir ${folder} --prefix ${ARG_PREFIX}
+      --top-module ${ARG_TOP} ${ARG_ARGS} ${ARG_SOURCES}
+    COMMAND ${CMAKE_COMMAND} -DFOLDER=${folder} -P ${PROJECT_SOURCE_DIR}/cmake/JoinVerilated.cmake
+    DEPENDS ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/cmake/JoinVerilated.cmake
+    COMMENT "Verilating ${ARG_TOP} as ${ARG_PREFIX}"
+    VERBATIM)
+  add_library(${library} STATIC ${folder}/all.cpp ${folder}/${ARG_PREFIX}.h)
+  target_include_directories(${library} SYSTEM PUBLIC ${folder})
+  target_compile_options(${library} PRIVATE -w)
+  target_link_libraries(${library} PUBLIC ctu_verilated)
+endfunction()
