@@ -13,8 +13,8 @@ namespace ctu::rtl {
 /// two of these powers. All classes of numbers meet all classes, with both signs.
 std::vector<numeric::Pair> corner_pairs();
 
-/// Three parts of tests/numeric's random pairs (uniform bits, close exponents, products at the ends of the range), and
-/// one part each of exact halves between two results, near-cancellation, and a corner's surroundings.
+/// One half tests/numeric's random pairs (uniform bits, close exponents, products at the ends of the range), an eighth
+/// each of products and of sums that lie exactly between two numbers, of near-cancellation, and of corners' surroundings.
 class HardPairs {
  public:
   explicit HardPairs(std::uint64_t seed)
