@@ -1,5 +1,7 @@
 #include "model/cull/mask_refinement.h"
 
+#include <algorithm>
+
 #include "model/cull/cell_descent.h"
 #include "model/cull/cluster_exchange.h"
 #include "model/cull/mask_clusters.h"
@@ -26,8 +28,9 @@ double settle_if_better(MaskClusters<R>& clusters, const std::vector<std::uint64
 /// Many exchanges a round at first; fewer when their estimates, which take each for itself, no longer come true.
 template <int R>
 void exchange(MaskClusters<R>& clusters, int entries) {
+  const int rounds = std::clamp(kMostExchanges * 512 / entries, 4, kMostExchanges);  // pairs of entries are looked at
   int moves = std::max(1, entries / 4);
-  for (int round = 0; round < kMostExchanges && moves > 0; ++round) {
+  for (int round = 0; round < rounds && moves > 0; ++round) {
     const auto masks = ClusterExchange<R>(clusters).run(moves, static_cast<std::size_t>(entries));
     if (masks.empty()) break;
     if (settle_if_better<R>(clusters, masks) < kWorthMore) moves /= 2;

@@ -14,7 +14,7 @@ namespace ctu::cull {
 namespace {
 
 // Different masks that the refined selection works on; docs/compression.md says what more of them would give.
-constexpr std::size_t kSampledMasks = 8192, kSampledMasksPerEntry = 16, kNodesPerSampledMask = 32;
+constexpr std::size_t kSampledMasks = 8192, kSampledMasksPerEntry = 4, kNodesPerSampledMask = 32;
 
 std::size_t enough_masks(const ChildWeights& weights, int entries) {
   const std::size_t nodes = weights.size() / intersect::kLanes;
