@@ -48,16 +48,14 @@ std::string_view description_of(Activity activity) { return kActivityTerms[stati
 std::string_view name_of(Place place) { return kPlaceTerms[static_cast<int>(place)].name; }
 std::string_view description_of(Place place) { return kPlaceTerms[static_cast<int>(place)].description; }
 
-StageAccount Account::close(Cycle end) const {
-  auto cycles = cycles_;
-  cycles[static_cast<int>(current_)] += end - since_;
+StageAccount Account::close() const {
   StageAccount account;
   account.stage = std::string(stage_);
-  account.busy = cycles[static_cast<int>(Activity::Busy)];
-  account.idle = cycles[static_cast<int>(Activity::Idle)];
+  account.busy = cycles_[static_cast<int>(Activity::Busy)];
+  account.idle = cycles_[static_cast<int>(Activity::Idle)];
   for (const Activity cause : causes_)
     account.stalled.push_back(
-        {std::string(name_of(cause)), std::string(description_of(cause)), cycles[static_cast<int>(cause)]});
+        {std::string(name_of(cause)), std::string(description_of(cause)), cycles_[static_cast<int>(cause)]});
   return account;
 }
 

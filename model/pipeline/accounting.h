@@ -32,27 +32,31 @@ inline constexpr int kActivities = 11;
 std::string_view name_of(Activity activity);
 std::string_view description_of(Activity activity);
 
-/// The account of one stage. A cycle that is not set again keeps what the cycle before had, so skipping cycles in which
-/// nothing moves needs no work here.
+/// The account of one stage.
 class Account {
  public:
   Account(std::string_view stage, std::initializer_list<Activity> causes) : stage_(stage), causes_(causes) {}
 
-  /// The stage's activity in cycle `now`; at most once a cycle, in ascending order.
-  void set(Cycle now, Activity activity) {
-    cycles_[static_cast<int>(current_)] += now - since_;
-    since_ = now;
+  /// What the stage was in this cycle; once in every cycle that is stepped.
+  void set(Activity activity) {
+    ++cycles_[static_cast<int>(activity)];
     current_ = activity;
   }
+  /// The same once more for this cycle: it was something else.
+  void correct(Activity activity) {
+    --cycles_[static_cast<int>(current_)];
+    set(activity);
+  }
+  /// `cycles` more in which nothing moves anywhere.
+  void stand(Cycle cycles) { cycles_[static_cast<int>(current_)] += cycles; }
   Activity current() const { return current_; }
   std::string_view stage() const { return stage_; }
-  StageAccount close(Cycle end) const;
+  StageAccount close() const;
 
  private:
   std::string_view stage_;
   std::vector<Activity> causes_;
   Activity current_ = Activity::Idle;
-  Cycle since_ = 0;
   std::array<std::uint64_t, kActivities> cycles_{};
 };
 

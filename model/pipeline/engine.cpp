@@ -119,7 +119,9 @@ class PlainEngine final : public Engine {
       next = std::max(next, now_ + 1);
       if (waves_ != nullptr && waves_->first() > now_) next = std::min(next, waves_->first());
     }
-    now_ = std::min({next, until, last_moved_ + watchdog_});
+    next = std::min({next, until, last_moved_ + watchdog_});
+    if (next > now_ + 1) for_each_stage(stages_, [&](auto& stage) { stage.account.stand(next - now_ - 1); });
+    now_ = next;
   }
 
   UnitState<Source> state_;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/pipeline/backpressure.h"
 #include "model/pipeline/cycle.h"
 #include "model/reference/step.h"
 
@@ -31,8 +30,8 @@ class EventLog {
     const std::uint64_t what =
         (std::bit_cast<std::uint64_t>(event.step) ^ (event.is_return ? kReturn : 0)) * 0x9E3779B97F4A7C15ull +
         event.ray * 0xD1B54A32D192ED03ull;
-    timed_hash_ += mix64(what ^ event.cycle * 0x8CB92BA72F3D8DD7ull);
-    untimed_hash_ += mix64(what ^ event.visit * 0xAEF17502108EF2D9ull);
+    timed_hash_ += product(what, event.cycle * 2 + 0x8CB92BA72F3D8DD7ull);
+    untimed_hash_ += product(what, event.visit * 2 + 0xAEF17502108EF2D9ull);
     if (keep_events_) events_.push_back(event);
   }
 
@@ -41,6 +40,12 @@ class EventLog {
   const std::vector<Event>& events() const { return events_; }
 
  private:
+  /// The two halves of the 128-bit product, folded: cheap, and every bit of both factors counts.
+  static std::uint64_t product(std::uint64_t a, std::uint64_t b) {
+    const unsigned __int128 both = static_cast<unsigned __int128>(a) * b;
+    return static_cast<std::uint64_t>(both) ^ static_cast<std::uint64_t>(both >> 64);
+  }
+
   static constexpr std::uint64_t kReturn = 0x5851F42D4C957F2Dull;
   bool keep_events_;
   std::uint64_t timed_hash_ = 0, untimed_hash_ = 0;

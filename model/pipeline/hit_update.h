@@ -30,7 +30,7 @@ class HitUpdate {
     if (pipe_.exit_ready(now)) {
       if (!done.can_push(now)) {
         pipe_.freeze(now);
-        account.set(now, Activity::OutputFull);
+        account.set(Activity::OutputFull);
         return false;
       }
       done.push(now, pipe_.leave(now));
@@ -43,7 +43,7 @@ class HitUpdate {
       if (test.last) finish_leaf(now, test.slot);
       moved = true;
     }
-    account.set(now, moved || !pipe_.empty() ? Activity::Busy : Activity::Idle);
+    account.set(moved || !pipe_.empty() ? Activity::Busy : Activity::Idle);
     return moved;
   }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }

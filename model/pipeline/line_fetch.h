@@ -64,7 +64,7 @@ class LineFetch {
 
   bool step(Cycle now) {
     if (nothing_to_do(now)) {  // most cycles, so settled at once
-      account.set(now, activity(Activity::Idle, false, false));
+      account.set(activity(Activity::Idle, false, false));
       return false;
     }
     return work(now);
@@ -98,7 +98,7 @@ class LineFetch {
       lookup = look_up(now);
       moved |= lookup == Activity::Busy || looked_up_something_;
     }
-    account.set(now, activity(lookup, moved, blocked_by_output));
+    account.set(activity(lookup, moved, blocked_by_output));
     return moved;
   }
 

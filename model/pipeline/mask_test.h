@@ -44,7 +44,7 @@ class MaskTest {
       uncertain_ += static_cast<unsigned>(std::popcount(answer.uncertain));
     });
     const bool conflict = !entered && !pipe_.can_enter(now);
-    if (conflict && account.current() == Activity::Busy) account.set(now, Activity::BankConflict);
+    if (conflict && account.current() == Activity::Busy) account.correct(Activity::BankConflict);
     return moved;
   }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }

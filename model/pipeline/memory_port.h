@@ -49,7 +49,7 @@ class MemoryPort {
   template <class Memory>
   bool step_over(Memory& memory, Cycle now) {
     if (!asked(now) && !memory.due(now)) {  // most cycles, so settled at once
-      account.set(now, memory.empty() ? Activity::Idle : Activity::Busy);
+      account.set(memory.empty() ? Activity::Idle : Activity::Busy);
       return false;
     }
     return serve(memory, now);
@@ -71,10 +71,10 @@ class MemoryPort {
     const Grant grant = arbitrate(memory, now);
     moved |= memory.work(now);
     moved |= grant == Grant::Given;
-    account.set(now, blocked                    ? Activity::OutputFull
-                     : grant == Grant::Refused  ? Activity::Memory
-                     : moved || !memory.empty() ? Activity::Busy
-                                                : Activity::Idle);
+    account.set(blocked                    ? Activity::OutputFull
+                : grant == Grant::Refused  ? Activity::Memory
+                : moved || !memory.empty() ? Activity::Busy
+                                           : Activity::Idle);
     return moved;
   }
 

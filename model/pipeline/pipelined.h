@@ -14,7 +14,7 @@ bool step_pipelined(Cycle now, In& in, Out& out, Pipe<T>& pipe, Account& account
   if (pipe.exit_ready(now)) {
     if (!out.can_push(now)) {
       pipe.freeze(now);
-      account.set(now, Activity::OutputFull);
+      account.set(Activity::OutputFull);
       return false;
     }
     out.push(now, pipe.leave(now));
@@ -25,7 +25,7 @@ bool step_pipelined(Cycle now, In& in, Out& out, Pipe<T>& pipe, Account& account
     in.pop(now);
     moved = true;
   }
-  account.set(now, moved || !pipe.empty() ? Activity::Busy : Activity::Idle);
+  account.set(moved || !pipe.empty() ? Activity::Busy : Activity::Idle);
   return moved;
 }
 

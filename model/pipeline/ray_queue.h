@@ -43,7 +43,7 @@ class RayQueue {
     const bool leaves = setup_.exit_ready(now);
     if (leaves && !leave(now)) {
       setup_.freeze(now);
-      account.set(now, Activity::OutputFull);
+      account.set(Activity::OutputFull);
     } else {
       moved = leaves;
       const bool waits = block_ != nullptr && setup_.can_enter(now);
@@ -51,9 +51,9 @@ class RayQueue {
         take(now);
         moved = true;
       }
-      account.set(now, waits && !moved && setup_.empty() ? Activity::NoContext
-                       : moved || !setup_.empty()        ? Activity::Busy
-                                                         : Activity::Idle);
+      account.set(waits && !moved && setup_.empty() ? Activity::NoContext
+                  : moved || !setup_.empty()        ? Activity::Busy
+                                                    : Activity::Idle);
     }
     if (freed.can_pop(now)) {
       free_[(first_free_ + free_count_++) % free_.size()] = freed.front().slot;

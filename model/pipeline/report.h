@@ -63,7 +63,7 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
                    .leaf_visits = triangle_test.leaves(),
                    .box_hits = box_test.box_hits(),
                    .dropped = pushed.dropped};
-  for_each_stage(stages, [&](auto& stage) { result.stages.push_back(stage.account.close(end)); });
+  for_each_stage(stages, [&](auto& stage) { result.stages.push_back(stage.account.close()); });
 
   CounterList counters;
   counters.add("contexts.occupied_cycles", "context cycles", "sum over cycles of occupied contexts",

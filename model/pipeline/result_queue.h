@@ -34,11 +34,11 @@ class ResultQueue {
   bool step(Cycle now) {
     const bool stack = from_stack.can_pop(now), rays = !stack && from_rays.can_pop(now);
     if (!stack && !rays) {
-      account.set(now, Activity::Idle);
+      account.set(Activity::Idle);
       return false;
     }
     if (next_return_ > now || !freed.can_push(now)) {
-      account.set(now, next_return_ > now ? Activity::Interval : Activity::OutputFull);
+      account.set(next_return_ > now ? Activity::Interval : Activity::OutputFull);
       return false;
     }
     if (stack) {
@@ -49,7 +49,7 @@ class ResultQueue {
       from_rays.pop(now);
     }
     next_return_ = now + interval_;
-    account.set(now, Activity::Busy);
+    account.set(Activity::Busy);
     return true;
   }
   Cycle next_event(Cycle now) const { return next_return_ > now ? next_return_ : kNever; }

@@ -57,7 +57,7 @@ class Scheduler {
     bool moved = false;
     const bool waiting = ready_ > 0;
     if (waiting) moved = policy_ == SchedulerPolicy::Oldest ? issue_oldest(now) : issue_round_robin(now);
-    account.set(now, moved ? Activity::Busy : waiting ? Activity::OutputFull : Activity::Idle);
+    account.set(moved ? Activity::Busy : waiting ? Activity::OutputFull : Activity::Idle);
     moved |= accept(now, from_stack);
     moved |= accept(now, from_rays);
     return moved;

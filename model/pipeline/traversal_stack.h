@@ -69,7 +69,7 @@ class TraversalStack {
       moved = true;
       activity = Activity::Busy;
     }
-    account.set(now, activity);
+    account.set(activity);
     return moved;
   }
   Cycle next_event(Cycle) const { return kNever; }

@@ -32,7 +32,7 @@ class TriangleTest {
     if (pipe_.exit_ready(now)) {
       if (!tested.can_push(now)) {
         pipe_.freeze(now);
-        account.set(now, Activity::OutputFull);
+        account.set(Activity::OutputFull);
         return false;
       }
       tested.push(now, pipe_.leave(now));
@@ -45,7 +45,7 @@ class TriangleTest {
       test_next(now);
       moved = true;
     }
-    account.set(now, waits && !enters ? Activity::Interval : moved || !pipe_.empty() ? Activity::Busy : Activity::Idle);
+    account.set(waits && !enters ? Activity::Interval : moved || !pipe_.empty() ? Activity::Busy : Activity::Idle);
     return moved;
   }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
