@@ -96,6 +96,7 @@ void add_record(CLI::App& app, Parsed& parsed) {
           "says that it pays on the unit of -c and --set")
       ->capture_default_str();
   add_config_options(*command, parsed.record.unit);
+  command->add_flag("--strip-full", parsed.record.strip_full, "nodes whose masks are all full carry none");
   command->add_option("--node-align", parsed.record.node_alignment_bytes, "bytes that a node starts at a multiple of")
       ->capture_default_str();
   command

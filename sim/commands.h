@@ -48,6 +48,7 @@ struct RecordArgs {
   std::string designs;         ///< empty: none,mask-lut,comparators, or none when culling is off
   std::string culling = "on";  ///< "off": nodes carry no masks; "auto": as pays on the unit
   UnitArgs unit;               ///< that auto decides for: its configuration
+  bool strip_full = false;     ///< nodes whose masks are all full carry none
   std::uint32_t node_alignment_bytes = 4, triangle_alignment_bytes = 4;
 };
 

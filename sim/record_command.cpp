@@ -73,6 +73,9 @@ traces::RecordOptions recorder_options(const RecordArgs& args) {
   if (args.culling != "auto" && (!args.unit.config_path.empty() || !args.unit.sets.empty()))
     throw Error("--config, --set", "a recording is the same for every unit", "leave them out, or give --culling auto");
   options.with_masks = args.culling != "off";
+  options.strip_full = args.strip_full;
+  if (!options.with_masks && options.strip_full)
+    throw Error("--strip-full", "without culling there are no masks to strip", "leave it out, or give --culling on");
   if (!options.with_masks && options.masks.entries != 0)
     throw Error("--compress", "without culling there are no masks to compress", "leave it out, or give --culling on");
   if (!args.designs.empty())
@@ -106,11 +109,12 @@ traces::RecordSummary record_chosen(const scene::Scene& scene, traces::RecordOpt
   tree.culling = decision.said;
   tree.masks = decision.masks ? std::move(*decision.masks) : traces::MaskSet{};
   if (!decision.masks) {
-    options.with_masks = false;
+    options.with_masks = options.strip_full = false;
     options.designs = {cull::Design::None};
     options.count_only.clear();
     options.masks.entries = 0;
   }
+  if (options.strip_full) traces::strip_full(tree);
   print_culling(decision.said);
   return traces::record(scene, options, tree, args.output, progress);
 }
@@ -143,6 +147,8 @@ int record_command(const RecordArgs& args) {
   fmt::print("{}: {} triangles, {} nodes, {:.1f} MB image; {} rays, {:.1f} MB, hash {}\n", args.output,
              summary.triangles, summary.nodes, double(summary.image_bytes) / 1e6, summary.rays,
              double(summary.file_bytes) / 1e6, summary.hash);
+  if (summary.bare_nodes != 0)
+    fmt::print("{} nodes carry no masks, because all of theirs are full\n", summary.bare_nodes);
   if (summary.compression_entries != 0)
     fmt::print("nodes of {} bytes; masks are indices into {} entries, selected in {:.2f} s\n",
                summary.node_stride_bytes, summary.compression_entries, summary.compression_seconds);
@@ -166,6 +172,9 @@ int trace_info_command(const TraceArgs& args) {
                           m.rays.samples_per_pixel, m.rays.seed));
   row("masks", describe_masks(reader));
   if (!m.culling.choice.empty()) print_culling(m.culling);
+  if (const std::uint32_t bare = m.image.shape.layout.bare_nodes; bare != 0)
+    row("bare nodes", fmt::format("{} of {} bytes without masks: all of theirs are full", bare,
+                                  m.image.shape.bare_node_stride_bytes));
   row("image", fmt::format("{} nodes of {} bytes, {} triangles of {} bytes, depth {}", m.image.shape.node_count,
                            m.image.shape.node_stride_bytes, m.image.shape.triangle_count,
                            m.image.shape.triangle_stride_bytes, m.image.shape.depth));

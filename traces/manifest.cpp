@@ -78,19 +78,24 @@ Json to_json_value(const cull::MaskOptions& masks) {
 
 Json to_json_value(const ImageInfo& info) {
   const accel::Image& image = info.shape;
-  return {{"mask_bits", image.layout.mask_bits},
-          {"node_alignment_bytes", image.layout.node_alignment_bytes},
-          {"triangle_alignment_bytes", image.layout.triangle_alignment_bytes},
-          {"node_stride_bytes", image.node_stride_bytes},
-          {"triangle_stride_bytes", image.triangle_stride_bytes},
-          {"node_base", image.node_base},
-          {"triangle_base", image.triangle_base},
-          {"node_count", image.node_count},
-          {"triangle_count", image.triangle_count},
-          {"depth", image.depth},
-          {"lower", to_json_value(image.lower)},
-          {"upper", to_json_value(image.upper)},
-          {"size_bytes", info.size_bytes}};
+  Json json = {{"mask_bits", image.layout.mask_bits},
+               {"node_alignment_bytes", image.layout.node_alignment_bytes},
+               {"triangle_alignment_bytes", image.layout.triangle_alignment_bytes},
+               {"node_stride_bytes", image.node_stride_bytes},
+               {"triangle_stride_bytes", image.triangle_stride_bytes},
+               {"node_base", image.node_base},
+               {"triangle_base", image.triangle_base},
+               {"node_count", image.node_count},
+               {"triangle_count", image.triangle_count},
+               {"depth", image.depth},
+               {"lower", to_json_value(image.lower)},
+               {"upper", to_json_value(image.upper)},
+               {"size_bytes", info.size_bytes}};
+  if (image.layout.bare_nodes != 0) {
+    json["bare_nodes"] = image.layout.bare_nodes;
+    json["bare_node_stride_bytes"] = image.bare_node_stride_bytes;
+  }
+  return json;
 }
 
 Json to_json_value(const DesignCounts& design) {
@@ -339,6 +344,10 @@ void read(const Reader& from, ImageInfo& to) {
   from.get("lower", image.lower);
   from.get("upper", image.upper);
   from.get("size_bytes", to.size_bytes);
+  if (from.has("bare_nodes")) {
+    from.get("bare_nodes", image.layout.bare_nodes);
+    from.get("bare_node_stride_bytes", image.bare_node_stride_bytes);
+  }
 }
 
 void read(const Reader& from, DesignCounts& to) {

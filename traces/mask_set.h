@@ -23,6 +23,10 @@ MaskSet mask_set(const accel::Bvh4& bvh, cull::ObjectMasks masks, const cull::Ma
 /// The same from the tree alone.
 MaskSet make_masks(const accel::Bvh4& bvh, const cull::MaskOptions& options, int threads);
 
+/// Orders tree and masks so that nodes whose masks are all full come last, and returns how many they are: they can be
+/// laid out bare. The masks stay what they are.
+std::uint32_t put_full_last(accel::Bvh4& bvh, MaskSet& set);
+
 /// The image whose nodes carry the masks, or their indices; none when `set` is null. `layout.mask_bits` is filled in.
 accel::Image image_of(const accel::Bvh4& bvh, const MaskSet* set, accel::ImageLayout layout);
 

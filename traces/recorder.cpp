@@ -190,6 +190,7 @@ void check_options(const RecordOptions& options) {
   cull::validate(options.masks);
   accel::validate(options.layout);
   if (options.with_masks) return;
+  if (options.strip_full) throw Error("record", "there are no masks to strip", "record with masks");
   if (options.masks.entries != 0) throw Error("record", "masks that are left out cannot be compressed", "ask for one");
   for (const auto& [design, stored] : designs_of(options))
     if (design != Design::None)
@@ -214,9 +215,13 @@ RecordedTree build_tree(const scene::Scene& scene, const RecordOptions& options)
   return tree;
 }
 
+void strip_full(RecordedTree& tree) { tree.bare_nodes = put_full_last(tree.bvh, tree.masks); }
+
 RecordSummary record(const scene::Scene& scene, const RecordOptions& options, const std::string& path,
                      const RecordProgress& progress) {
-  return record(scene, options, build_tree(scene, options), path, progress);
+  RecordedTree tree = build_tree(scene, options);
+  if (options.strip_full) strip_full(tree);
+  return record(scene, options, tree, path, progress);
 }
 
 RecordSummary record(const scene::Scene& scene, const RecordOptions& options, const RecordedTree& tree,
@@ -232,9 +237,11 @@ RecordSummary record(const scene::Scene& scene, const RecordOptions& options, co
   summary.compression_seconds = tree.compression_seconds;
   summary.compression_entries = tree.masks.lut ? tree.masks.lut->entries() : 0;
 
+  accel::ImageLayout layout = options.layout;
+  layout.bare_nodes = summary.bare_nodes = tree.bare_nodes;
   const auto start = std::chrono::steady_clock::now();
   const auto make_writer = [&] {  // the image is large and needed only here
-    const accel::Image image = image_of(tree.bvh, options.with_masks ? &tree.masks : nullptr, options.layout);
+    const accel::Image image = image_of(tree.bvh, options.with_masks ? &tree.masks : nullptr, layout);
     summary.image_bytes = image.bytes.size();
     summary.nodes = image.node_count;
     summary.node_stride_bytes = image.node_stride_bytes;

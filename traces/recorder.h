@@ -22,6 +22,7 @@ struct RecordOptions {
   accel::BuildOptions build;
   cull::MaskOptions masks;
   bool with_masks = true;     ///< false: nodes carry none, and the only design is None
+  bool strip_full = false;    ///< nodes whose masks are all full carry none
   accel::ImageLayout layout;  ///< alignments; mask_bits follow from `masks`
   /// Whose steps are stored. Projection, Dedup and BitTable store MaskLut's, which are their own.
   std::vector<cull::Design> designs = {cull::Design::None, cull::Design::MaskLut, cull::Design::Comparators};
@@ -34,13 +35,17 @@ struct RecordOptions {
 /// What rays are recorded on.
 struct RecordedTree {
   accel::Bvh4 bvh;
-  MaskSet masks;          ///< empty when nodes carry none
-  CullingChoice culling;  ///< for the manifest, when somebody chose the masks
+  MaskSet masks;                 ///< empty when nodes carry none
+  std::uint32_t bare_nodes = 0;  ///< the last ones, laid out without masks
+  CullingChoice culling;         ///< for the manifest, when somebody chose the masks
   double build_seconds = 0, mask_seconds = 0, compression_seconds = 0;
 };
 
 /// The tree of a scene with all masks, or none, as the options say. Throws Error on options out of range.
 RecordedTree build_tree(const scene::Scene& scene, const RecordOptions& options);
+
+/// Lays nodes whose masks are all full out without masks: once the masks are chosen, because it reorders the nodes.
+void strip_full(RecordedTree& tree);
 
 struct RecordSummary {
   std::uint64_t rays = 0;
@@ -48,6 +53,7 @@ struct RecordSummary {
   std::uint64_t image_bytes = 0;
   std::uint32_t nodes = 0, triangles = 0;
   std::uint32_t node_stride_bytes = 0;
+  std::uint32_t bare_nodes = 0;
   int compression_entries = 0;  ///< 0: masks are not compressed
   double build_seconds = 0, mask_seconds = 0, compression_seconds = 0, trace_seconds = 0;
   std::vector<DesignCounts> designs;    ///< stored ones first

@@ -174,7 +174,7 @@ void TraceReader::check_masks(const accel::Image& image) const {
     refuse("image",
            fmt::format("indices of {} bits into a compression LUT of {} entries", bits, compression_->entries()));
   const auto entries = static_cast<std::uint64_t>(compression_->entries());
-  for (std::uint32_t node = 0; node < image.node_count; ++node)
+  for (std::uint32_t node = 0; node < image.masked_nodes(); ++node)
     for (int lane = 0; lane < intersect::kLanes; ++lane) {
       std::uint64_t index = 0;
       accel::read_mask(image, node, lane, &index);

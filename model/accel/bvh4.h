@@ -23,7 +23,8 @@ struct LeafTriangle {
 };
 static_assert(sizeof(LeafTriangle) == 40);
 
-/// Node 0 is the root, present even when the scene has one triangle; children come after their parent.
+/// Node 0 is the root, present even when the scene has one triangle; children come after their parent, but
+/// in a tree that partition.h has ordered: that one can be walked, not refit or given masks.
 struct Bvh4 {
   std::vector<Node4> nodes;
   std::vector<LeafTriangle> triangles;

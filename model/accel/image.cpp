@@ -59,6 +59,8 @@ Image frame(const ImageLayout& layout, std::uint32_t nodes, std::uint32_t triang
   image.node_stride_bytes =
       static_cast<std::uint32_t>(round_up(kNodeBytes + 4 * mask_bytes(layout), layout.node_alignment_bytes));
   image.triangle_stride_bytes = static_cast<std::uint32_t>(round_up(kTriangleBytes, layout.triangle_alignment_bytes));
+  if (layout.bare_nodes != 0)
+    image.bare_node_stride_bytes = static_cast<std::uint32_t>(round_up(kNodeBytes, layout.node_alignment_bytes));
   image.node_count = nodes;
   image.triangle_count = triangles;
   image.triangle_base =
@@ -93,7 +95,7 @@ const std::uint8_t* node_bytes(const Image& image, std::uint32_t node) {
   return image.bytes.data() + image.node_address(node);
 }
 
-/// Collects what validate() needs to know of the whole tree while it walks the nodes in order.
+/// Collects what validate() needs to know of the whole tree while it walks from the root.
 class Validator {
  public:
   explicit Validator(const Image& image)
@@ -102,7 +104,14 @@ class Validator {
   void run() {
     check_frame();
     node_depth_[0] = 1;
-    for (std::uint32_t n = 0; n < image_.node_count; ++n) check_node(n);
+    for (std::vector<std::uint32_t> open = {0}; !open.empty();) {
+      const std::uint32_t n = open.back();
+      open.pop_back();
+      check_node(n, open);
+    }
+    const auto stray = std::find(node_depth_.begin(), node_depth_.end(), 0);
+    if (stray != node_depth_.end())
+      fail(fmt::format("image, node {}", stray - node_depth_.begin()), "no node on the way from the root refers to it");
     if (*std::max_element(node_depth_.begin(), node_depth_.end()) != image_.depth)
       fail("image, depth", "not the length of the longest path");
     const auto missing = std::find(in_leaf_.begin(), in_leaf_.end(), false);
@@ -116,7 +125,9 @@ class Validator {
     if (image.triangle_count == 0 || image.triangle_count > kMaxTriangles)
       fail("image, triangle_count", fmt::format("outside 1 .. {}", kMaxTriangles));
     const Image expected = frame(image.layout, image.node_count, image.triangle_count);
+    if (image.layout.bare_nodes >= image.node_count) fail("image, bare_nodes", "the root is one of them");
     if (image.node_stride_bytes != expected.node_stride_bytes ||
+        image.bare_node_stride_bytes != expected.bare_node_stride_bytes ||
         image.triangle_stride_bytes != expected.triangle_stride_bytes || image.node_base != expected.node_base ||
         image.triangle_base != expected.triangle_base)
       fail("image", "strides or addresses that do not follow from its layout");
@@ -137,10 +148,8 @@ class Validator {
     return true;
   }
 
-  void check_node(std::uint32_t n) {
+  void check_node(std::uint32_t n, std::vector<std::uint32_t>& open) {
     const Node4 node = read_node(image_, n);
-    // A node that nothing before it refers to could only be reached from behind: a cycle or a stray.
-    if (node_depth_[n] == 0) fail(fmt::format("image, node {}", n), "no earlier node refers to it");
     bool empty_before = false;
     for (int lane = 0; lane < intersect::kLanes; ++lane) {
       const LanePlace where{n, lane};
@@ -151,7 +160,12 @@ class Validator {
         continue;
       }
       if (empty_before) fail(where, "a child behind an empty lane");
-      is_leaf(child) ? check_leaf(child, where) : check_inner(child, where);
+      if (is_leaf(child)) {
+        check_leaf(child, where);
+      } else {
+        check_inner(child, where);
+        open.push_back(child);
+      }
     }
     if (node.child[0] == kEmptyChild) fail(fmt::format("image, node {}", n), "no child");
   }
@@ -171,7 +185,9 @@ class Validator {
   }
 
   void check_inner(ChildRef child, const LanePlace& where) {
-    if (child >= image_.node_count || child <= where.node) fail(where, fmt::format("child {} out of range", child));
+    const bool ordered = image_.layout.bare_nodes == 0;
+    if (child >= image_.node_count || (ordered && child <= where.node))
+      fail(where, fmt::format("child {} out of range", child));
     if (node_depth_[child] != 0) fail(where, fmt::format("child {} has two parents", child));
     node_depth_[child] = node_depth_[where.node] + 1;
   }
@@ -212,6 +228,8 @@ void validate(const ImageLayout& layout) {
   if (layout.mask_bits > kMaxMaskBits)
     throw Error(where, fmt::format("mask_bits is {}", layout.mask_bits),
                 fmt::format("choose at most {}", kMaxMaskBits));
+  if (layout.bare_nodes != 0 && layout.mask_bits == 0)
+    throw Error(where, "bare nodes where no node carries masks", "choose 0 bare nodes");
 }
 
 Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask, const ImageLayout& layout) {
@@ -219,6 +237,9 @@ Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask
   if (layout.mask_bits != 0 && (masks == nullptr || words_per_mask < static_cast<int>((layout.mask_bits + 63) / 64)))
     throw Error("image layout", fmt::format("{} mask bits but {} words", layout.mask_bits, words_per_mask),
                 "give masks of ceil(mask_bits / 64) words, or no mask_bits");
+  if (layout.bare_nodes != 0 && layout.bare_nodes >= bvh.nodes.size())
+    throw Error("image layout", fmt::format("{} bare nodes of {}", layout.bare_nodes, bvh.nodes.size()),
+                "leave the root its masks");
   Image image =
       frame(layout, static_cast<std::uint32_t>(bvh.nodes.size()), static_cast<std::uint32_t>(bvh.triangles.size()));
   image.depth = bvh.depth;
@@ -228,7 +249,7 @@ Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask
   for (std::uint32_t n = 0; n < image.node_count; ++n) {
     std::uint8_t* const node = image.bytes.data() + image.node_address(n);
     write_node(bvh.nodes[n], node);
-    for (std::size_t lane = 0; lane < intersect::kLanes && layout.mask_bits != 0; ++lane)
+    for (std::size_t lane = 0; lane < intersect::kLanes && layout.mask_bits != 0 && n < image.masked_nodes(); ++lane)
       write_mask(masks + (4 * std::size_t{n} + lane) * static_cast<std::size_t>(words_per_mask), layout.mask_bits,
                  node + kMaskOffset + lane * mask_bytes(layout));
   }
@@ -258,6 +279,7 @@ LeafTriangle read_triangle(const Image& image, std::uint32_t index) {
 }
 
 void read_mask(const Image& image, std::uint32_t node, int lane, std::uint64_t* words) {
+  if (node >= image.masked_nodes()) fail(fmt::format("image, node {}", node), "carries no masks");
   const std::uint32_t bytes = mask_bytes(image.layout);
   const std::uint8_t* const p = node_bytes(image, node) + kMaskOffset + static_cast<std::uint32_t>(lane) * bytes;
   std::fill_n(words, (bytes + 7) / 8, std::uint64_t{0});

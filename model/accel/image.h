@@ -12,8 +12,12 @@
 //   byte  36  primitive                          u32, its id in the scene
 // Its stride is 40 bytes, rounded up to the alignment. Nodes start at byte 0, triangles at the next multiple of 64.
 // Bytes that nothing above names are 0.
+//
+// The last `bare_nodes` nodes carry no masks, because every mask in them is full; their stride is that of 112 bytes.
+// They lie behind the others without a gap, and the root is never one of them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -30,6 +34,7 @@ struct ImageLayout {
   std::uint32_t mask_bits = 0;                 ///< of one lane; 0: no masks
   std::uint32_t node_alignment_bytes = 4;      ///< a power of two, at least 4
   std::uint32_t triangle_alignment_bytes = 4;  ///< likewise
+  std::uint32_t bare_nodes = 0;                ///< without masks although mask_bits is not 0; partition.h orders them
   bool operator==(const ImageLayout&) const = default;
 };
 
@@ -42,14 +47,18 @@ constexpr std::uint32_t mask_bytes(const ImageLayout& layout) { return (layout.m
 struct Image {
   ImageLayout layout;
   std::uint32_t node_stride_bytes = 0, triangle_stride_bytes = 0;
+  std::uint32_t bare_node_stride_bytes = 0;        ///< 0 when there are no bare nodes
   std::uint64_t node_base = 0, triangle_base = 0;  ///< byte addresses
   std::uint32_t node_count = 0, triangle_count = 0;
   int depth = 0;      ///< nodes on the longest path; a traversal stack never holds more than 3 * depth + 1 entries
   Vec3 lower, upper;  ///< bounds of the scene
   std::vector<std::uint8_t> bytes;
 
+  /// Nodes that carry masks: [0, masked_nodes()).
+  std::uint32_t masked_nodes() const { return node_count - layout.bare_nodes; }
   std::uint64_t node_address(std::uint32_t index) const {
-    return node_base + static_cast<std::uint64_t>(index) * node_stride_bytes;
+    const std::uint64_t masked = std::min(index, masked_nodes());
+    return node_base + masked * node_stride_bytes + (index - masked) * bare_node_stride_bytes;
   }
   std::uint64_t triangle_address(std::uint32_t index) const {
     return triangle_base + static_cast<std::uint64_t>(index) * triangle_stride_bytes;
@@ -64,15 +73,15 @@ Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask
 /// Reading one thing at its address. Throws Error when the index is out of range.
 Node4 read_node(const Image& image, std::uint32_t node);
 LeafTriangle read_triangle(const Image& image, std::uint32_t triangle);
-/// Fills ceil(mask_bits / 64) words.
+/// Fills ceil(mask_bits / 64) words. Throws Error for a node that carries no masks.
 void read_mask(const Image& image, std::uint32_t node, int lane, std::uint64_t* words);
 
 /// The tree an image was made of, bit for bit. The image must be valid.
 Bvh4 decode(const Image& image);
 
 /// Throws Error unless every traversal of the image ends within its bytes: sizes and strides as the layout says, empty
-/// lanes last, every node but the root the child of exactly one earlier node, every triangle in exactly one leaf,
-/// `depth` true, boxes ordered and without NaN, vertices finite.
+/// lanes last, every node but the root the child of exactly one node (an earlier one, where no nodes are bare), every
+/// triangle in exactly one leaf, `depth` true, boxes ordered and without NaN, vertices finite.
 void validate(const Image& image);
 
 }  // namespace ctu::accel

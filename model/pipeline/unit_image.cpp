@@ -1,9 +1,16 @@
 #include "model/pipeline/unit_image.h"
 
+#include <algorithm>
+
+#include "model/cull/mask_words.h"
+
 namespace ctu::pipeline {
 
 UnitImage::UnitImage(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic)
-    : node_base_(image.node_base),
+    : masked_nodes_(image.masked_nodes()),
+      bare_base_(image.node_address(masked_nodes_)),
+      bare_stride_(image.bare_node_stride_bytes),
+      node_base_(image.node_base),
       node_stride_(image.node_stride_bytes),
       triangle_base_(image.triangle_base),
       triangle_stride_(image.triangle_stride_bytes),
@@ -29,6 +36,7 @@ UnitImage::UnitImage(const accel::Image& image, const cull::MaskTester& tester, 
     if (arithmetic) triangles_[t] = triangle;
   }
   if (tester.design() == cull::Design::None) return;
+  std::fill(full_lanes_.begin() + masked_nodes_, full_lanes_.end(), std::uint8_t{15});  // bare nodes
   if (lut_ != nullptr)
     read_indices(image);
   else
@@ -39,7 +47,11 @@ void UnitImage::read_masks(const accel::Image& image, const cull::MaskTester& te
   const std::size_t node_words = 4 * mask_words_;
   std::vector<std::uint64_t> one_node(arithmetic ? 0 : node_words);
   if (arithmetic) masks_.resize(image.node_count * node_words);
-  for (std::uint32_t n = 0; n < image.node_count; ++n) {
+  const std::vector<std::uint64_t> full = cull::full_mask(tester.options().resolution);
+  for (std::size_t lane = 4 * std::size_t{masked_nodes_}; arithmetic && lane < 4 * std::size_t{image.node_count};
+       ++lane)
+    std::copy(full.begin(), full.end(), masks_.begin() + static_cast<std::ptrdiff_t>(lane * mask_words_));
+  for (std::uint32_t n = 0; n < masked_nodes_; ++n) {
     std::uint64_t* const words = arithmetic ? masks_.data() + n * node_words : one_node.data();
     for (int lane = 0; lane < 4; ++lane)
       accel::read_mask(image, n, lane, words + static_cast<std::size_t>(lane) * mask_words_);
@@ -49,8 +61,8 @@ void UnitImage::read_masks(const accel::Image& image, const cull::MaskTester& te
 
 void UnitImage::read_indices(const accel::Image& image) {
   const auto full = static_cast<std::uint64_t>(lut_->entries() - 1);
-  mask_index_.resize(static_cast<std::size_t>(image.node_count) * 4);
-  for (std::uint32_t n = 0; n < image.node_count; ++n)
+  mask_index_.resize(static_cast<std::size_t>(image.node_count) * 4, static_cast<std::uint16_t>(full));
+  for (std::uint32_t n = 0; n < masked_nodes_; ++n)
     for (int lane = 0; lane < 4; ++lane) {
       std::uint64_t index = 0;
       accel::read_mask(image, n, lane, &index);

@@ -24,8 +24,12 @@ class UnitImage {
   UnitImage(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic);
 
   ByteSpan node_bytes(std::uint32_t node) const {
-    const std::uint64_t first = node_base_ + node * node_stride_;
-    return {first, first + node_stride_ - 1};
+    if (node < masked_nodes_) {
+      const std::uint64_t first = node_base_ + node * node_stride_;
+      return {first, first + node_stride_ - 1};
+    }
+    const std::uint64_t first = bare_base_ + (node - masked_nodes_) * bare_stride_;
+    return {first, first + bare_stride_ - 1};
   }
   ByteSpan leaf_bytes(accel::ChildRef leaf) const {
     const std::uint64_t first = triangle_base_ + accel::leaf_first(leaf) * triangle_stride_;
@@ -64,6 +68,8 @@ class UnitImage {
   void read_masks(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic);
   void read_indices(const accel::Image& image);
 
+  std::uint32_t masked_nodes_ = 0;
+  std::uint64_t bare_base_ = 0, bare_stride_ = 0;
   std::uint64_t node_base_ = 0, node_stride_ = 0, triangle_base_ = 0, triangle_stride_ = 0, end_ = 0;
   int depth_ = 0;
   const cull::CompressionLut* lut_;

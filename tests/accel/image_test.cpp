@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <random>
 
 #include "model/accel/build.h"
+#include "model/accel/partition.h"
 #include "model/base/error.h"
 #include "tests/accel/bits.h"
 #include "tests/accel/meshes.h"
@@ -177,6 +179,81 @@ TEST(Validate, catches_references_that_lead_astray) {
                 [](Image& i) { set_word(i, kChild, accel::make_leaf(i.triangle_count - 1, 2)); });
   expect_caught("a triangle in two leaves", [](Image& i) { set_word(i, kChild, accel::make_leaf(0, 1)); });
   expect_caught("a hole before a child", [](Image& i) { set_word(i, kChild, accel::kEmptyChild); });
+}
+
+/// The soup with every node of an odd number bare.
+struct Stripped {
+  Bvh4 bvh = soup();
+  accel::Partition partition;
+  std::vector<std::uint64_t> masks = random_masks(soup().nodes.size() * 4);
+  Stripped() {
+    std::vector<bool> carries(bvh.nodes.size());
+    for (std::size_t n = 0; n < carries.size(); ++n) carries[n] = n % 2 == 0;
+    partition = accel::partition_nodes(bvh, carries);
+  }
+  Image image(std::uint32_t alignment) const {
+    return accel::make_image(bvh, masks.data(), 1,
+                             {.mask_bits = 64, .node_alignment_bytes = alignment, .bare_nodes = partition.bare_nodes});
+  }
+};
+
+TEST(BareNodes, are_the_same_tree_in_another_order) {
+  const Stripped stripped;
+  EXPECT_EQ(stripped.partition.bare_nodes, soup().nodes.size() / 2);
+  EXPECT_EQ(stripped.partition.old_index.front(), 0u);
+  for (std::size_t n = 0; n < stripped.bvh.nodes.size(); ++n) {
+    const accel::Node4& old = soup().nodes[stripped.partition.old_index[n]];
+    for (int lane = 0; lane < 4; ++lane) {
+      const accel::ChildRef child = stripped.bvh.nodes[n].child[lane];
+      ASSERT_EQ(accel::is_inner(child) ? stripped.partition.old_index[child] : child, old.child[lane]);
+    }
+    ASSERT_EQ(std::memcmp(&stripped.bvh.nodes[n].boxes, &old.boxes, sizeof old.boxes), 0);
+  }
+}
+
+TEST(BareNodes, take_no_bytes_for_masks_and_are_read_back) {
+  const Stripped stripped;
+  for (const std::uint32_t alignment : {4u, 128u}) {
+    const Image image = stripped.image(alignment);
+    EXPECT_NO_THROW(accel::validate(image));
+    EXPECT_EQ(image.node_stride_bytes, alignment == 4 ? 144u : 256u);
+    EXPECT_EQ(image.bare_node_stride_bytes, alignment == 4 ? 112u : 128u);
+    EXPECT_EQ(image.node_address(image.node_count),
+              image.masked_nodes() * std::uint64_t{image.node_stride_bytes} +
+                  stripped.partition.bare_nodes * std::uint64_t{image.bare_node_stride_bytes});
+    const Bvh4 back = accel::decode(image);
+    for (std::size_t n = 0; n < back.nodes.size(); ++n)
+      ASSERT_TRUE(test::same_node(back.nodes[n], stripped.bvh.nodes[n])) << n;
+    std::uint64_t mask = 0;
+    accel::read_mask(image, image.masked_nodes() - 1, 3, &mask);
+    EXPECT_EQ(mask, stripped.masks[4 * image.masked_nodes() - 1]);
+    EXPECT_THROW(accel::read_mask(image, image.masked_nodes(), 0, &mask), Error);
+  }
+}
+
+TEST(BareNodes, cannot_be_all_nodes_or_lie_in_an_image_without_masks) {
+  const auto masks = random_masks(soup().nodes.size() * 4);
+  const auto all = static_cast<std::uint32_t>(soup().nodes.size());
+  EXPECT_THROW(accel::make_image(soup(), masks.data(), 1, {.mask_bits = 64, .bare_nodes = all}), Error);
+  EXPECT_THROW(accel::make_image(soup(), nullptr, 0, {.bare_nodes = 1}), Error);
+  Image image = Stripped().image(4);
+  image.layout.bare_nodes = image.node_count;
+  EXPECT_THROW(accel::validate(image), Error);
+}
+
+TEST(BareNodes, lets_no_damaged_child_word_past) {
+  SCOPED_TRACE(oracle::seed_note());
+  std::mt19937_64 random(oracle::test_seed());
+  const Image good = Stripped().image(4);
+  for (int i = 0; i < 300; ++i) {
+    Image image = good;
+    const std::uint64_t at =
+        image.node_address(static_cast<std::uint32_t>(random() % image.node_count)) + kChild + 4 * (random() % 4);
+    const auto word = static_cast<std::uint32_t>(random() % 2 == 0 ? random() : random() % image.node_count);
+    if (word_at(image, at) == word) continue;
+    set_word(image, at, word);
+    EXPECT_THROW(accel::validate(image), Error) << "address " << at << " word " << word;
+  }
 }
 
 TEST(Validate, catches_sizes_that_do_not_fit) {

@@ -217,6 +217,28 @@ TEST_F(CommandTest, nodes_have_the_bytes_that_masks_and_alignment_ask_for) {
   EXPECT_NE(ctusim("trace info stride.ctut").out.find("triangles of 64 bytes"), std::string::npos);
 }
 
+TEST_F(CommandTest, nodes_whose_masks_are_full_take_no_bytes_for_them_and_change_no_work) {
+  const std::string scene = "record 'gen:hair-ball?strands=200&seed=7' --size 32x32 --compress 16 -o ";
+  ASSERT_EQ(ctusim(scene + "whole.ctut").exit_code, 0);
+  ASSERT_EQ(ctusim(scene + "bare.ctut --strip-full").exit_code, 0);
+  EXPECT_NE(ctusim("trace info bare.ctut").out.find("of 112 bytes without masks"), std::string::npos);
+  for (const std::string design : {"none", "mask-lut", "bit-table", "comparators"}) {
+    std::map<std::string, json> results;
+    for (const std::string trace : {"whole", "bare"}) {
+      for (const std::string source : {"replay", "exec"}) {
+        const Outcome run =
+            ctusim("run " + trace + ".ctut --json r.json --source " + source + " --set mask_test.design=" + design);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        results[trace + source] = json::parse(read_text(file("r.json")));
+      }
+      EXPECT_EQ(results[trace + "exec"]["event_log_hash"], results[trace + "replay"]["event_log_hash"]) << design;
+      EXPECT_EQ(results[trace + "exec"]["cycles"], results[trace + "replay"]["cycles"]) << design;
+    }
+    EXPECT_EQ(results["bareexec"]["intersections_per_ray"], results["wholeexec"]["intersections_per_ray"]) << design;
+    EXPECT_EQ(results["bareexec"]["wrong_hits"], 0) << design;
+  }
+}
+
 TEST_F(CommandTest, a_trace_without_masks_runs_without_culling_only) {
   ASSERT_EQ(ctusim("record 'gen:hair-ball?strands=50' -o bare.ctut --size 8x8 --culling off").exit_code, 0);
   EXPECT_EQ(ctusim("run bare.ctut --set mask_test.design=none").exit_code, 0);
@@ -282,6 +304,7 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   }
   expect_refused("record gen:hair-ball -o x.ctut --node-align 24", "--node-align");
   expect_refused("record gen:hair-ball -o x.ctut --triangle-align 0", "--triangle-align");
+  expect_refused("record gen:hair-ball -o x.ctut --culling off --strip-full", "--strip-full");
   expect_refused("record gen:hair-ball -o x.ctut --culling maybe", "--culling");
   expect_refused("record gen:hair-ball -o x.ctut --culling off --designs none,mask-lut", "--designs");
   expect_refused("record gen:hair-ball -o x.ctut --culling off --compress 64", "--compress");

@@ -55,7 +55,7 @@ def compare(trace, folder, functions):
 def compare_masks(trace, folder, name, compressed):
     image = trace.manifest["image"]
     masks = trace.masks()
-    children = trace.nodes()[:, 96:112].copy().view("<u4")
+    children = np.concatenate([part[:, 96:112] for part in trace.nodes()]).copy().view("<u4")
     masks[children == 0xFFFFFFFF] = 0
     wanted = np.fromfile(os.path.join(folder, f"masks-{name}.bin"), "<u8")
     check(f"{len(wanted)} words of the masks of {name}", np.array_equal(masks.ravel(), wanted))
@@ -74,6 +74,9 @@ def main(document, dump_program):
         compare(functions["Trace"](path), folder, functions)
         compare_masks(functions["Trace"](path), folder, "trace", False)
         compare_masks(functions["Trace"](os.path.join(folder, "compressed.ctut")), folder, "compressed", True)
+        stripped = functions["Trace"](os.path.join(folder, "stripped.ctut"))
+        check("nodes without masks", len(stripped.nodes()[1]) > 0)
+        compare_masks(stripped, folder, "stripped", True)
         if shutil.which("zstd"):
             with open(path, "rb") as file:
                 check("zstd -t", subprocess.run(["zstd", "-tq"], stdin=file, check=False).returncode == 0)

@@ -1,7 +1,8 @@
 // Records a small trace and writes what TraceReader finds in it as plain arrays, for the test of the documentation:
 //   dump FOLDER   writes FOLDER/trace.ctut, rays.bin (8 binary32 a ray), hits.bin (t, u, v, primitive), and for each
 //   stored design steps-NAME.bin (Step, 8 bytes) and first-NAME.bin (u64); and FOLDER/compressed.ctut, the same with
-//   R = 5 and compressed masks; of both the object masks, masks-trace.bin and masks-compressed.bin (u64)
+//   R = 5 and compressed masks, and FOLDER/stripped.ctut, that one with bare nodes; of all the object masks,
+//   masks-NAME.bin (u64)
 #include <cstdio>
 #include <fstream>
 #include <string>
@@ -28,10 +29,11 @@ void dump_masks(const std::string& folder, const std::string& name) {
   for (const std::uint64_t word : masks.bits) append(file, word);
 }
 
-void dump_compressed(const std::string& folder) {
+void dump_compressed(const std::string& folder, const std::string& name, bool strip_full) {
   traces::RecordOptions options = traces::test::small_options();
   options.masks = {.resolution = 5, .ray_resolution = 5, .entries = 64};
-  traces::record(traces::test::hair_scene(), options, folder + "/compressed.ctut");
+  options.strip_full = strip_full;
+  traces::record(traces::test::hair_scene(), options, folder + "/" + name + ".ctut");
 }
 
 void dump(const std::string& folder) {
@@ -67,9 +69,11 @@ int main(int argc, char** argv) {
   if (argc != 2) return 2;
   try {
     dump(argv[1]);
-    dump_compressed(argv[1]);
+    dump_compressed(argv[1], "compressed", false);
+    dump_compressed(argv[1], "stripped", true);
     dump_masks(argv[1], "trace");
     dump_masks(argv[1], "compressed");
+    dump_masks(argv[1], "stripped");
   } catch (const ctu::Error& problem) {
     std::fprintf(stderr, "%s\n", problem.what());
     return 1;

@@ -1,0 +1,30 @@
+#include "model/accel/partition.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace ctu::accel {
+
+Partition partition_nodes(Bvh4& bvh, const std::vector<bool>& carries_masks) {
+  Partition partition;
+  partition.old_index.resize(bvh.nodes.size());
+  std::iota(partition.old_index.begin(), partition.old_index.end(), 0u);
+  const auto bare = std::stable_partition(partition.old_index.begin(), partition.old_index.end(),
+                                          [&](std::uint32_t node) { return node == 0 || carries_masks[node]; });
+  partition.bare_nodes = static_cast<std::uint32_t>(partition.old_index.end() - bare);
+
+  std::vector<std::uint32_t> new_index(bvh.nodes.size());
+  std::vector<Node4> nodes;
+  nodes.reserve(bvh.nodes.size());
+  for (const std::uint32_t old : partition.old_index) {
+    new_index[old] = static_cast<std::uint32_t>(nodes.size());
+    nodes.push_back(bvh.nodes[old]);
+  }
+  for (Node4& node : nodes)
+    for (ChildRef& child : node.child)
+      if (is_inner(child)) child = new_index[child];
+  bvh.nodes = std::move(nodes);
+  return partition;
+}
+
+}  // namespace ctu::accel
