@@ -14,7 +14,8 @@ namespace ctu::rtl {
 std::vector<numeric::Pair> corner_pairs();
 
 /// One half tests/numeric's random pairs (uniform bits, close exponents, products at the ends of the range), an eighth
-/// each of products and of sums that lie exactly between two numbers, of near-cancellation, and of corners' surroundings.
+/// each of products and of sums that lie exactly between two numbers, of near-cancellation, and of corners'
+/// surroundings.
 class HardPairs {
  public:
   explicit HardPairs(std::uint64_t seed)
