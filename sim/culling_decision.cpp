@@ -1,7 +1,6 @@
 #include "sim/culling_decision.h"
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -17,10 +16,10 @@ namespace {
 
 using pipeline::Place;
 using pipeline::UnitResult;
-using traces::MaskSet;
+using traces::RecordedTree;
 
-/// What is gained must be more than this share of the cycles before masks are carried: a forecast is no better.
-constexpr double kIndifference = 0.001;
+/// More masks must gain more than this share of the cycles: forecasts are hardly better than that.
+constexpr double kIndifference = 0.003;
 
 double ratio(double numerator, double denominator) { return denominator > 0 ? numerator / denominator : 0; }
 
@@ -47,14 +46,36 @@ double least_test_cycles(const pipeline::UnitConfig& config) {
          kStages * kLinkCycles;
 }
 
-traces::CullingForecast forecast(std::string name, const SampleRun& run, const accel::Bvh4& bvh, const MaskSet* masks) {
+traces::CullingForecast forecast(std::string name, const SampleRun& run, std::uint64_t masked_nodes) {
   traces::CullingForecast row;
   row.name = std::move(name);
   row.cycles_per_ray = run.cycles_per_ray();
   row.intersections_per_ray = run.unit.counts.intersections_per_ray();
-  row.masked_nodes = masks == nullptr ? 0 : cull::nodes_with_masks(bvh, masks->masks);
   row.node_bytes = run.node_bytes;
+  row.image_bytes = run.image_bytes;
+  row.masked_nodes = masked_nodes;
   return row;
+}
+
+std::uint64_t nodes_with_masks(const RecordedTree& tree) { return cull::nodes_with_masks(tree.bvh, tree.masks.masks); }
+
+/// The tree with only those masks that pay at these prices, for rays like `sample`.
+RecordedTree with_paying_masks(const RecordedTree& tree, const RaySample& sample, const traces::RecordOptions& recorded,
+                               const pipeline::UnitConfig& config, const VisitCosts& costs) {
+  const cull::MaskTester tester(config.mask_test.design, recorded.masks, tree.masks.lut);
+  const auto kept = lanes_that_pay(tree.bvh, tree.masks.masks, tester, sample, costs, recorded.threads);
+  RecordedTree paying = tree;
+  paying.masks.masks = cull::strip_masks(tree.bvh, tree.masks.masks, tree.masks.lut.get(), kept);
+  traces::strip_full(paying);
+  return paying;
+}
+
+/// The forecast to follow: the fewest cycles, and of those nearly so the one with the fewest masks.
+const traces::CullingForecast& best_of(const std::vector<traces::CullingForecast>& fewest_masks_first) {
+  const traces::CullingForecast* best = &fewest_masks_first.front();
+  for (const traces::CullingForecast& other : fewest_masks_first)
+    if (other.cycles_per_ray < best->cycles_per_ray * (1 - kIndifference)) best = &other;
+  return *best;
 }
 
 std::string why(const traces::CullingForecast& best, const traces::CullingForecast& off,
@@ -78,13 +99,15 @@ double SampleRun::cycles_per_ray() const {
   return ratio(static_cast<double>(unit.cycles), static_cast<double>(unit.rays));
 }
 
-SampleRun simulate_sample(const accel::Bvh4& bvh, const MaskSet* masks, const RaySample& sample,
+SampleRun simulate_sample(const RecordedTree& tree, bool with_masks, const RaySample& sample,
                           const traces::RecordOptions& recorded, const pipeline::UnitConfig& config) {
   pipeline::UnitConfig unit = config;
-  if (masks == nullptr) unit.mask_test.design = cull::Design::None;
-  const cull::MaskTester tester(unit.mask_test.design, recorded.masks, masks == nullptr ? nullptr : masks->lut);
-  const accel::Image image = traces::image_of(bvh, masks, recorded.layout);
-  SampleFeed feed(sample, bvh, masks == nullptr ? nullptr : &masks->masks, tester);
+  if (!with_masks) unit.mask_test.design = cull::Design::None;
+  accel::ImageLayout layout = recorded.layout;
+  layout.bare_nodes = tree.bare_nodes;
+  const cull::MaskTester tester(unit.mask_test.design, recorded.masks, with_masks ? tree.masks.lut : nullptr);
+  const accel::Image image = traces::image_of(tree.bvh, with_masks ? &tree.masks : nullptr, layout);
+  SampleFeed feed(sample, tree.bvh, &tree.masks.masks, tester);
   return {pipeline::run_to_end(*pipeline::make_engine(unit, {image, tester, feed}, {})), image.node_stride_bytes,
           image.bytes.size()};
 }
@@ -107,49 +130,47 @@ VisitCosts measured_costs(const UnitResult& off, const UnitResult& on, const pip
   return costs;
 }
 
-CullingDecision decide_culling(const scene::Scene& scene, const accel::Bvh4& bvh, const MaskSet& masks,
-                               const traces::RecordOptions& recorded, const DecisionOptions& options) {
+CullingDecision decide_culling(const scene::Scene& scene, RecordedTree tree, const traces::RecordOptions& recorded,
+                               const DecisionOptions& options) {
   const pipeline::UnitConfig& config = options.config;
-  CullingDecision decision;
-  traces::CullingChoice& said = decision.said;
+  traces::CullingChoice said;
   said.design = cull::to_string(config.mask_test.design);
   said.config_hash = config_hash(config);
+  const auto decision = [&](RecordedTree chosen, bool with_masks) {
+    if (!with_masks) chosen.masks = {};
+    chosen.culling = said;
+    return CullingDecision{std::move(chosen), with_masks};
+  };
   if (config.mask_test.design == cull::Design::None) {
     said.choice = "off";
     said.why = "the unit does not cull";
-    return decision;
+    return decision(std::move(tree), false);
   }
 
   const traces::RayGenerator generator(scene, recorded.rays);
   const cull::MaskTester none(cull::Design::None, recorded.masks);
-  const reference::Traversal walk(bvh, nullptr, none);
+  const reference::Traversal walk(tree.bvh, nullptr, none);
   const RaySample pilot = sample_rays(generator, walk, {.rays = options.pilot_rays}, recorded.threads);
   const RaySample others =
       pilot.whole ? pilot : sample_rays(generator, walk, {.rays = options.pilot_rays, .phase = 0.5}, recorded.threads);
   said.pilot_rays = pilot.rays.size();
 
-  std::array<SampleRun, 2> ends;  // without masks, with all of them
-  parallel_chunks(ends.size(), 1, recorded.threads, [&](std::size_t i, std::size_t) {
-    ends[i] = simulate_sample(bvh, i == 0 ? nullptr : &masks, pilot, recorded, config);
+  SampleRun off, on;
+  RecordedTree all = tree;
+  if (recorded.strip_full) traces::strip_full(all);
+  parallel_chunks(2, 1, recorded.threads, [&](std::size_t i, std::size_t) {
+    (i == 0 ? off : on) = simulate_sample(all, i == 1, pilot, recorded, config);
   });
-  said.forecasts = {forecast("off", ends[0], bvh, nullptr), forecast("on", ends[1], bvh, &masks)};
+  RecordedTree paying = with_paying_masks(tree, others, recorded, config, measured_costs(off.unit, on.unit, config));
+  const SampleRun partial = simulate_sample(paying, true, pilot, recorded, config);
 
-  const cull::MaskTester tester(config.mask_test.design, recorded.masks, masks.lut);
-  VisitCosts costs = measured_costs(ends[0].unit, ends[1].unit, config);
-  costs.mask_bytes = 0;  // a node whose masks are full is as long as the others
-  const auto kept = lanes_that_pay(bvh, masks.masks, tester, others, costs, recorded.threads);
-  MaskSet paying{cull::strip_masks(bvh, masks.masks, masks.lut.get(), kept), masks.lut};
-  said.forecasts.push_back(forecast("partial", simulate_sample(bvh, &paying, pilot, recorded, config), bvh, &paying));
-
-  const auto& [off, on, partial] = std::tie(said.forecasts[0], said.forecasts[1], said.forecasts[2]);
-  const traces::CullingForecast* best = &off;
-  for (const traces::CullingForecast* other : {&on, &partial})
-    if (other->cycles_per_ray < best->cycles_per_ray * (1 - kIndifference)) best = other;
-  said.choice = best->name;
-  said.why = why(*best, off, on, bvh.nodes.size());
-  if (best == &on) decision.masks = masks;
-  if (best == &partial) decision.masks = std::move(paying);
-  return decision;
+  said.forecasts = {forecast("off", off, 0), forecast("partial", partial, nodes_with_masks(paying)),
+                    forecast("on", on, nodes_with_masks(tree))};
+  const traces::CullingForecast& best = best_of(said.forecasts);
+  said.choice = best.name;
+  said.why = why(best, said.forecasts.front(), said.forecasts.back(), tree.bvh.nodes.size());
+  if (said.choice == "off") return decision(std::move(tree), false);
+  return decision(std::move(said.choice == "on" ? all : paying), true);
 }
 
 }  // namespace ctu::sim

@@ -3,17 +3,11 @@
 // the costs by which masks are weighed are what the first two simulations say that rays pay for visits and look-ups.
 #pragma once
 
-#include <optional>
-
-#include "model/accel/bvh4.h"
-#include "model/accel/image.h"
 #include "model/pipeline/result.h"
 #include "model/pipeline/unit_config.h"
 #include "model/scene/scene.h"
 #include "sim/mask_worth.h"
 #include "sim/ray_sample.h"
-#include "traces/culling_choice.h"
-#include "traces/mask_set.h"
 #include "traces/recorder.h"
 
 namespace ctu::sim {
@@ -24,24 +18,24 @@ struct DecisionOptions {
 };
 
 struct CullingDecision {
-  traces::CullingChoice said;
-  std::optional<traces::MaskSet> masks;  ///< of the variant chosen; none: nodes carry no masks
+  traces::RecordedTree tree;  ///< with the masks chosen, nodes that need none laid out bare, and what was said
+  bool with_masks = true;     ///< false: culling does not pay, nodes carry no masks
 };
 
-/// Decides for the rays, masks and layout of `recorded`. `masks`: of the tree, all of them. The same for any number of
-/// threads.
-CullingDecision decide_culling(const scene::Scene& scene, const accel::Bvh4& bvh, const traces::MaskSet& masks,
+/// Decides for the rays, masks and layout of `recorded`. `tree`: as build_tree() makes it, with all masks. The same for
+/// any number of threads.
+CullingDecision decide_culling(const scene::Scene& scene, traces::RecordedTree tree,
                                const traces::RecordOptions& recorded, const DecisionOptions& options);
 
 struct SampleRun {
   pipeline::UnitResult unit;
-  std::uint32_t node_bytes = 0;  ///< stride of nodes
+  std::uint32_t node_bytes = 0;  ///< stride of nodes that carry masks, or of all when none does
   std::uint64_t image_bytes = 0;
   double cycles_per_ray() const;
 };
 
-/// The unit's run over the sample, on an image with these masks; without culling when `masks` is null.
-SampleRun simulate_sample(const accel::Bvh4& bvh, const traces::MaskSet* masks, const RaySample& sample,
+/// The unit's run over the sample, on the image of this tree with its masks; without culling when not `with_masks`.
+SampleRun simulate_sample(const traces::RecordedTree& tree, bool with_masks, const RaySample& sample,
                           const traces::RecordOptions& recorded, const pipeline::UnitConfig& config);
 
 /// What rays paid for their visits, from the runs without and with masks.

@@ -37,11 +37,12 @@ void print_differences(const std::vector<traces::Difference>& differences) {
 void print_culling(const traces::CullingChoice& said) {
   fmt::print("culling: {} for {} ({})\n", said.choice, said.design, said.why);
   if (said.forecasts.empty()) return;
-  fmt::print("{:<14}{:>14}{:>14}{:>12}{:>18}   forecast from {} rays\n", "masks", "inters./ray", "cycles/ray",
-             "bytes/node", "nodes with masks", said.pilot_rays);
+  fmt::print("{:<14}{:>14}{:>14}{:>18}{:>12}{:>10}   forecast from {} rays\n", "masks", "inters./ray", "cycles/ray",
+             "nodes with masks", "bytes each", "image MB", said.pilot_rays);
   for (const traces::CullingForecast& row : said.forecasts)
-    fmt::print("{:<14}{:>14.3f}{:>14.3f}{:>12}{:>18}\n", row.name, row.intersections_per_ray, row.cycles_per_ray,
-               row.node_bytes, row.masked_nodes);
+    fmt::print("{:<14}{:>14.3f}{:>14.3f}{:>18}{:>12}{:>10.2f}\n", row.name, row.intersections_per_ray,
+               row.cycles_per_ray, row.masked_nodes, row.masked_nodes == 0 ? 0 : row.node_bytes,
+               double(row.image_bytes) / 1e6);
 }
 
 void print_step(const reference::Step& step, const accel::Bvh4& bvh) {
@@ -104,19 +105,15 @@ traces::RecordOptions recorder_options(const RecordArgs& args) {
 /// The trace of a scene whose masks are chosen for the unit; what was chosen and why is printed.
 traces::RecordSummary record_chosen(const scene::Scene& scene, traces::RecordOptions options, const RecordArgs& args,
                                     const pipeline::UnitConfig& config, const traces::RecordProgress& progress) {
-  traces::RecordedTree tree = traces::build_tree(scene, options);
-  CullingDecision decision = decide_culling(scene, tree.bvh, tree.masks, options, {.config = config});
-  tree.culling = decision.said;
-  tree.masks = decision.masks ? std::move(*decision.masks) : traces::MaskSet{};
-  if (!decision.masks) {
+  const CullingDecision decision =
+      decide_culling(scene, traces::build_tree(scene, options), options, {.config = config});
+  if (!decision.with_masks) {
     options.with_masks = options.strip_full = false;
     options.designs = {cull::Design::None};
-    options.count_only.clear();
     options.masks.entries = 0;
   }
-  if (options.strip_full) traces::strip_full(tree);
-  print_culling(decision.said);
-  return traces::record(scene, options, tree, args.output, progress);
+  print_culling(decision.tree.culling);
+  return traces::record(scene, options, decision.tree, args.output, progress);
 }
 
 std::string describe_masks(const traces::TraceReader& reader) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling paper variants; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper variants; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling paper variants)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants)
 
 page=docs/results.md
 plots=docs/plots
@@ -115,10 +115,36 @@ variants() {
   put variants
 }
 
+# One row: what decide says of all scenes for a unit, at a small size.
+unit() {  # LABEL OPTION...
+  local label=$1
+  shift
+  keep unit "$program" decide --index "$index" --markdown --size 120x68 --pilot 8192 "$@"
+  awk -F'|' -v label="$label" '
+    NR > 2 { choice = $8; gsub(/ /, "", choice); chosen[choice]++; scenes++
+             to_off += log($11 / $9); to_on += log($11 / $10); if ($12 + 0 > worst) worst = $12 + 0 }
+    END { printf "| %s | %d | %d | %d | %.1f %% | %.1f %% | %.2f %% |\n", label, chosen["off"], chosen["partial"], chosen["on"],
+                 100 * exp(to_off / scenes), 100 * exp(to_on / scenes), worst }' "$scratch/unit"
+}
+
+auto() {
+  keep auto "$program" decide --index "$index" --markdown --size 240x135
+  put auto
+  {
+    echo "| unit and masks | off | partial | on | cycles, of off | of on | at most above the better |"
+    echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"
+    unit "256 compressed masks, \`bit-table\`, 116 bytes a node" --compress 256 --set mask_test.design=bit-table
+    unit "128 contexts and 64 miss registers a cache" --set unit.contexts=128 --set node_cache.mshrs=64 \
+      --set leaf_cache.mshrs=64
+    unit "a mask test of 2 cycles instead of 12" --set cell_locate.latency=1 --set mask_test.latency=1
+  } >"$scratch/auto-units"
+  put auto-units
+}
+
 for section in "${sections[@]}"; do
   case $section in
-    culling | paper | variants) "$section" ;;
-    *) echo "no section $section: culling, paper or variants" >&2; exit 2 ;;
+    culling | auto | paper | variants) "$section" ;;
+    *) echo "no section $section: culling, auto, paper or variants" >&2; exit 2 ;;
   esac
 done
 exit "$failed"

@@ -12,6 +12,7 @@ struct CullingForecast {
   std::string name;  ///< "off", "on", "partial"
   double cycles_per_ray = 0, intersections_per_ray = 0;
   std::uint32_t node_bytes = 0;    ///< of a node that carries masks, or of every node when none does
+  std::uint64_t image_bytes = 0;   ///< of all nodes and triangles
   std::uint64_t masked_nodes = 0;  ///< nodes with at least one mask that is not full
   bool operator==(const CullingForecast&) const = default;
 };

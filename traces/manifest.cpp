@@ -135,6 +135,7 @@ Json to_json_value(const CullingForecast& forecast) {
           {"cycles_per_ray", forecast.cycles_per_ray},
           {"intersections_per_ray", forecast.intersections_per_ray},
           {"node_bytes", forecast.node_bytes},
+          {"image_bytes", forecast.image_bytes},
           {"masked_nodes", forecast.masked_nodes}};
 }
 
@@ -317,6 +318,7 @@ void read(const Reader& from, CullingForecast& to) {
   from.get("cycles_per_ray", to.cycles_per_ray);
   from.get("intersections_per_ray", to.intersections_per_ray);
   from.get("node_bytes", to.node_bytes);
+  from.get("image_bytes", to.image_bytes);
   from.get("masked_nodes", to.masked_nodes);
 }
 

@@ -39,6 +39,7 @@ struct World {
         generator(scene, options.rays),
         rays(sample_rays(generator, walk, {}, 1)) {}
 
+  traces::RecordedTree tree() const { return {.bvh = bvh, .masks = masks, .culling = {}}; }
   reference::Counts counts(const cull::ObjectMasks& object_masks) const {
     const reference::Traversal culled(bvh, &object_masks, tester);
     reference::StepList steps;
@@ -173,36 +174,36 @@ TEST(MaskWorth, masks_that_pay_cost_less_than_all_masks_and_than_none_by_the_pri
 
 TEST(CullingDecision, leaves_out_masks_where_boxes_are_full_and_keeps_them_for_hair) {
   const World tetra("gen:tetra"), hair("gen:straight-hair?strands=500");
-  EXPECT_EQ(decide_culling(tetra.scene, tetra.bvh, tetra.masks, tetra.options, {}).said.choice, "off");
-  EXPECT_NE(decide_culling(hair.scene, hair.bvh, hair.masks, hair.options, {}).said.choice, "off");
+  EXPECT_EQ(decide_culling(tetra.scene, tetra.tree(), tetra.options, {}).tree.culling.choice, "off");
+  EXPECT_NE(decide_culling(hair.scene, hair.tree(), hair.options, {}).tree.culling.choice, "off");
 }
 
 TEST(CullingDecision, is_the_same_for_any_number_of_threads) {
   World world("gen:hair-ball?strands=300");
   const DecisionOptions options{.config = {}, .pilot_rays = 500};
-  const auto said = decide_culling(world.scene, world.bvh, world.masks, world.options, options).said;
+  const auto said = decide_culling(world.scene, world.tree(), world.options, options).tree.culling;
   world.options.threads = 1;
-  EXPECT_EQ(said, decide_culling(world.scene, world.bvh, world.masks, world.options, options).said);
+  EXPECT_EQ(said, decide_culling(world.scene, world.tree(), world.options, options).tree.culling);
 }
 
 TEST(CullingDecision, a_unit_that_does_not_cull_needs_no_masks) {
   const World world("gen:tetra");
   DecisionOptions options;
   options.config.mask_test.design = Design::None;
-  const CullingDecision decision = decide_culling(world.scene, world.bvh, world.masks, world.options, options);
-  EXPECT_EQ(decision.said.choice, "off");
-  EXPECT_FALSE(decision.masks);
+  const CullingDecision decision = decide_culling(world.scene, world.tree(), world.options, options);
+  EXPECT_EQ(decision.tree.culling.choice, "off");
+  EXPECT_FALSE(decision.with_masks);
+  EXPECT_TRUE(decision.tree.masks.masks.bits.empty());
 }
 
 /// Cycles per ray of the recorded trace, run as `ctusim run` does.
 double run_recorded(const World& world, traces::RecordOptions options, const CullingDecision& decision) {
   const auto path = (std::filesystem::temp_directory_path() / "ctu-culling-decision-test.ctut").string();
-  options.with_masks = decision.masks.has_value();
+  options.with_masks = decision.with_masks;
   if (!options.with_masks) options.designs = {Design::None};
-  const traces::RecordedTree tree{world.bvh, decision.masks.value_or(traces::MaskSet{}), decision.said};
-  traces::record(world.scene, options, tree, path);
+  traces::record(world.scene, options, decision.tree, path);
   const LoadedTrace trace(path);
-  EXPECT_EQ(trace.reader().manifest().culling, decision.said);
+  EXPECT_EQ(trace.reader().manifest().culling, decision.tree.culling);
   RunPlan plan;
   plan.options.mode = unit::Mode::Plain;
   if (!options.with_masks) plan.config.mask_test.design = Design::None;
@@ -216,12 +217,12 @@ double run_recorded(const World& world, traces::RecordOptions options, const Cul
 TEST(CullingDecision, its_forecast_from_all_rays_is_what_the_recorded_trace_takes_cycle_for_cycle) {
   for (const char* name : {"gen:tetra", "gen:straight-hair?strands=500"}) {
     const World world(name);
-    const CullingDecision decision = decide_culling(world.scene, world.bvh, world.masks, world.options, {});
-    const auto& rows = decision.said.forecasts;
-    const auto chosen =
-        std::find_if(rows.begin(), rows.end(), [&](const auto& row) { return row.name == decision.said.choice; });
+    const CullingDecision decision = decide_culling(world.scene, world.tree(), world.options, {});
+    const auto& rows = decision.tree.culling.forecasts;
+    const auto chosen = std::find_if(rows.begin(), rows.end(),
+                                     [&](const auto& row) { return row.name == decision.tree.culling.choice; });
     ASSERT_NE(chosen, rows.end());
-    EXPECT_EQ(decision.said.pilot_rays, world.rays.rays.size());
+    EXPECT_EQ(decision.tree.culling.pilot_rays, world.rays.rays.size());
     EXPECT_EQ(run_recorded(world, world.options, decision), chosen->cycles_per_ray) << name;
   }
 }
