@@ -1,6 +1,6 @@
 // One float unit many times over, without registers, so that one evaluation of the model answers LANES vectors.
 module float_bench #(
-    parameter int OPERATION = 0,  // 0 add or, with select_i, subtract; 1 multiply; 2 min or max; 3 compare
+    parameter int OPERATION = 0,  // 0 add or, with select_i, subtract; 1 multiply; 2 min or max; 3 compare; 4 divide
     parameter int LANES = 4
 ) (
     input  logic [31:0] a_i     [LANES],
@@ -41,6 +41,20 @@ module float_bench #(
             .max_i(select_i),
             .result_o(result_o[lane])
         );
+      end else if (OPERATION == 4) begin : g_div
+        logic [31:0] nearest, down, up;
+        float_div #(
+            .LATENCY(0)
+        ) unit (
+            .clk_i(1'b0),
+            .enable_i(1'b0),
+            .a_i(a_i[lane]),
+            .b_i(b_i[lane]),
+            .nearest_o(nearest),
+            .down_o(down),
+            .up_o(up)
+        );
+        assign result_o[lane] = round_i == 2'd0 ? nearest : round_i == 2'd1 ? down : up;
       end else begin : g_compare
         float_compare unit (
             .a_i(a_i[lane]),

@@ -9,6 +9,7 @@
 #include "VMutantNanSign.h"
 #include "VMutantOverflowToInfinity.h"
 #include "VMutantProductSticky.h"
+#include "VMutantQuotientSticky.h"
 #include "VMutantSignOfZero.h"
 #include "VMutantSubnormalSticky.h"
 #include "VMutantTiesAway.h"
@@ -71,6 +72,10 @@ TEST(FloatMutants, a_dropped_lowest_bit_of_the_product_is_caught) {
 TEST(FloatMutants, a_dropped_sticky_bit_of_subnormal_products_is_caught) {
   VerilatedFloatUnit<VMutantSubnormalSticky> unit;
   expect_caught(unit, kMultiply, Round::Up);
+}
+TEST(FloatMutants, a_dropped_remainder_of_the_quotient_is_caught) {
+  VerilatedFloatUnit<VMutantQuotientSticky> unit;
+  expect_caught(unit, kDivide, Round::Up);
 }
 TEST(FloatMutants, min_that_takes_zeros_as_equal_is_caught) {
   VerilatedFloatUnit<VMutantZerosEqual> unit;

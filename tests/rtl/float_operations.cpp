@@ -33,6 +33,10 @@ template <Round M>
 struct Multiply {
   static float of(float a, float b) { return numeric::mul<M>(a, b); }
 };
+template <Round M>
+struct Divide {
+  static float of(float a, float b) { return numeric::div<M>(a, b); }
+};
 
 std::uint32_t smaller(Round, Pair pair) { return bits(numeric::min(pair.first, pair.second)); }
 std::uint32_t larger(Round, Pair pair) { return bits(numeric::max(pair.first, pair.second)); }
@@ -50,6 +54,7 @@ std::uint32_t order(Round, Pair pair) {
 const Operation kAdd{"add", false, true, rounded<Add>};
 const Operation kSubtract{"subtract", true, true, rounded<Subtract>};
 const Operation kMultiply{"multiply", false, true, rounded<Multiply>};
+const Operation kDivide{"divide", false, true, rounded<Divide>};
 const Operation kMin{"min", false, false, smaller};
 const Operation kMax{"max", true, false, larger};
 const Operation kCompare{"compare", false, false, order};

@@ -26,7 +26,7 @@ struct Operation {
   std::uint32_t (*defined)(Round, Pair);
 };
 
-extern const Operation kAdd, kSubtract, kMultiply, kMin, kMax, kCompare;
+extern const Operation kAdd, kSubtract, kMultiply, kDivide, kMin, kMax, kCompare;
 
 /// A float unit under test, without registers.
 class FloatUnit {

@@ -6,6 +6,7 @@
 
 #include "VFloatAdd.h"
 #include "VFloatCompare.h"
+#include "VFloatDiv.h"
 #include "VFloatMinMax.h"
 #include "VFloatMul.h"
 #include "tests/oracle/seed.h"
@@ -48,6 +49,10 @@ TEST_P(RoundedOperation, subtract_gives_the_defined_bits) {
 TEST_P(RoundedOperation, multiply_gives_the_defined_bits) {
   VerilatedFloatUnit<VFloatMul> unit;
   expect_defined_bits(unit, kMultiply, GetParam());
+}
+TEST_P(RoundedOperation, divide_gives_the_defined_bits) {
+  VerilatedFloatUnit<VFloatDiv> unit;
+  expect_defined_bits(unit, kDivide, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(FloatUnits, RoundedOperation, testing::ValuesIn(kRounds), [](const auto& info) {
