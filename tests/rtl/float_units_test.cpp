@@ -1,5 +1,5 @@
 // Each float unit of rtl/ against model/numeric, bit for bit: all pairs of corners, and random pairs. CTU_LONG_TESTS=1
-// takes ten million random pairs for each operation and direction.
+// takes ten million random pairs for each operation and direction, CTU_RTL_PAIRS any other number.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -19,7 +19,10 @@ namespace {
 
 constexpr std::size_t kBatch = 1 << 14;
 
-std::size_t random_count() { return std::getenv("CTU_LONG_TESTS") ? 10'000'000 : 400'000; }
+std::size_t random_count() {
+  if (const char* given = std::getenv("CTU_RTL_PAIRS")) return std::strtoull(given, nullptr, 10);
+  return std::getenv("CTU_LONG_TESTS") ? 10'000'000 : 400'000;
+}
 
 void expect_defined_bits(FloatUnit& unit, const Operation& operation, Round round) {
   const Verdict at_corners = first_difference(unit, operation, round, corner_pairs());
