@@ -33,6 +33,12 @@ std::vector<PathRange> spread(std::uint64_t paths, std::uint64_t runs, std::uint
   return ranges;
 }
 
+std::uint64_t runs_of(const SampleOptions& options) {
+  constexpr std::uint64_t kRaysPerRun = 1024, kMostRuns = 32;
+  if (options.runs > 0) return static_cast<std::uint64_t>(options.runs);
+  return options.rays == 0 ? kMostRuns : std::min(options.rays / kRaysPerRun, kMostRuns);
+}
+
 RaySample trace(const traces::RayGenerator& generator, const reference::Traversal& without_culling,
                 const std::vector<PathRange>& ranges, int threads) {
   const auto closest = [&](const Ray& ray, bool) { return without_culling.trace(ray); };
@@ -53,14 +59,14 @@ RaySample trace(const traces::RayGenerator& generator, const reference::Traversa
 RaySample sample_rays(const traces::RayGenerator& generator, const reference::Traversal& without_culling,
                       const SampleOptions& options, int threads) {
   const std::uint64_t paths = generator.paths();
-  const std::uint64_t runs = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(options.runs), 1, paths);
+  const std::uint64_t runs = std::clamp<std::uint64_t>(runs_of(options), 1, paths);
   std::uint64_t paths_per_run = (paths + runs - 1) / runs;
   if (options.rays != 0) {
     const RaySample probe = trace(generator, without_culling, spread(paths, runs, kProbePaths, options.phase), threads);
     const double probed = static_cast<double>(runs * std::min(kProbePaths, std::max<std::uint64_t>(1, paths / runs)));
     const double rays_per_path = std::max(static_cast<double>(probe.rays.size()) / probed, 1e-3);
     const double wanted = static_cast<double>(options.rays) / static_cast<double>(runs) / rays_per_path;
-    if (wanted < static_cast<double>(paths_per_run)) paths_per_run = static_cast<std::uint64_t>(std::ceil(wanted));
+    if (2 * wanted < static_cast<double>(paths_per_run)) paths_per_run = static_cast<std::uint64_t>(std::ceil(wanted));
   }
   const auto ranges = spread(paths, runs, paths_per_run, options.phase);
   RaySample sample = trace(generator, without_culling, ranges, threads);

@@ -23,14 +23,14 @@ struct RaySample {
 };
 
 struct SampleOptions {
-  std::uint64_t rays = 0;  ///< about so many; 0: all
-  int runs = 32;           ///< of consecutive paths, one in each of so many equal parts of the paths
-  double phase = 0;        ///< 0..1; another sample has another one
+  std::uint64_t rays = 0;  ///< about so many; all when there are at most twice as many; 0: all
+  int runs = 0;      ///< of consecutive paths, one in each of so many equal parts; 0: of about 1024 rays, 32 at most
+  double phase = 0;  ///< 0..1; another sample has another one
 };
 
 /// Runs of consecutive paths, so that a cache finds in the sample what it finds in the trace; each starts elsewhere in
-/// its part. All of a scene's rays when they are not many more than asked for. 48 bytes a ray; the same for any number
-/// of threads. `without_culling` is the walk that finds the hits.
+/// its part. A run begins with caches that have seen other rays, so short runs find fewer lines there. 48 bytes a ray;
+/// the same for any number of threads. `without_culling` is the walk that finds the hits.
 RaySample sample_rays(const traces::RayGenerator& generator, const reference::Traversal& without_culling,
                       const SampleOptions& options, int threads);
 
