@@ -9,6 +9,7 @@
 //   stalls: output_full
 #pragma once
 
+#include <algorithm>
 #include <bit>
 
 #include "model/pipeline/context.h"
@@ -26,14 +27,17 @@ class CellLocate {
   typename Wiring::template Out<NodeToken> located;
 
   CellLocate(const UnitConfig& config, Contexts& contexts, Source& source)
-      : contexts_(contexts), source_(source), units_(units(config)), pipe_(latency(config)) {}
+      : contexts_(contexts), source_(source), pipe_(latency(config)) {
+    for (int lanes = 0; lanes <= intersect::kLanes; ++lanes)
+      cycles_of_[lanes] = std::max(1, (lanes + units(config) - 1) / units(config));
+  }
 
   bool step(Cycle now) {
     return step_pipelined(now, tested, located, pipe_, account, [&](const NodeToken& token) {
       contexts_.move(token.slot, now, Place::CellLocate);
       const std::uint8_t asked = source_.locate(token.slot, token.hits);
       const int lanes = std::popcount(asked);
-      const int cycles = lanes == 0 ? 1 : (lanes + units_ - 1) / units_;
+      const int cycles = cycles_of_[lanes];
       pipe_.enter(now, {token.slot, token.hits, token.hits, 0, asked}, static_cast<Cycle>(cycles));
       lanes_ += static_cast<unsigned>(lanes);
       lanes_unasked_ += static_cast<unsigned>(std::popcount(token.hits) - lanes);
@@ -60,7 +64,7 @@ class CellLocate {
 
   Contexts& contexts_;
   Source& source_;
-  int units_;
+  int cycles_of_[intersect::kLanes + 1];  ///< at the entrance, by the number of lanes asked
   Pipe<NodeToken> pipe_;
   std::uint64_t lanes_ = 0, lanes_unasked_ = 0, occupied_ = 0;
 };
