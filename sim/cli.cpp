@@ -125,6 +125,7 @@ void add_compare(CLI::App& app, Parsed& parsed) {
   command->add_option("traces", parsed.compare.traces, "trace files")->required();
   add_unit_options(*command, parsed.compare.unit);
   command->add_option("--designs", parsed.compare.designs, "list of designs")->capture_default_str();
+  command->add_flag("--markdown", parsed.compare.markdown, "print a Markdown table, without speeds");
   command->callback([&] { parsed.exit_code = compare_command(parsed.compare); });
 }
 

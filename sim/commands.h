@@ -66,6 +66,7 @@ struct CompareArgs {
   std::vector<std::string> traces;
   UnitArgs unit;
   std::string designs = "none,mask-lut,projection,comparators";
+  bool markdown = false;
 };
 
 struct CullingArgs {

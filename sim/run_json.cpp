@@ -102,6 +102,7 @@ void write_json(const RunRecord& record, const std::string& path) {
   json["config_hash"] = record.config_hash;
   json["rays"] = record.result.rays;
   json["wrong_hits"] = record.result.wrong_hits;
+  json["other_visits"] = record.result.other_visits;
   json["intersections_per_ray"] = record.result.counts.intersections_per_ray();
   json["culled_share"] = record.result.counts.culled_share();
   json["wall_seconds"] = record.wall_seconds;

@@ -21,6 +21,7 @@ void print_summary(const RunRecord& r) {
   row("config", r.config_hash);
   row("rays", std::to_string(r.result.rays));
   row("wrong hits", std::to_string(r.result.wrong_hits));
+  if (r.source == "exec") row("other visits", std::to_string(r.result.other_visits) + " than recorded");
   row("intersections per ray",
       fmt::format("{:.3f} ({:.3f} box tests of 4, {:.3f} triangle tests)", counts.intersections_per_ray(),
                   ratio(double(counts.node_visits), double(counts.rays)),

@@ -56,6 +56,7 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
   result.cycles = end;
   result.rays = result_queue.rays();
   result.wrong_hits = result_queue.wrong_hits();
+  result.other_visits = state.source.event_mismatches();
   result.first_wrong = result_queue.first_wrong();
   result.counts = {.rays = result.rays,
                    .node_visits = box_test.nodes(),
@@ -111,9 +112,6 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
   counters.add("stack.deepest", "entries", "most entries of one ray", static_cast<std::uint64_t>(pushed.deepest));
   counters.add("stack.spills", "batches", "batches written to memory", pushed.spills);
   counters.add("stack.refills", "batches", "batches read back from memory", pushed.refills);
-  if (Source::kComputes)
-    counters.add("events.mismatches", "visits", "computed events that differ from recorded ones",
-                 state.source.event_mismatches());
   result.counters = counters.take();
 
   result.ray_cycles = ray_cycles(state.contexts);
