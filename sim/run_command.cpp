@@ -42,8 +42,9 @@ unit::RunOptions run_options(const UnitArgs& args) {
 
 void print_compare_header(bool markdown) {
   if (markdown)
-    fmt::print("| scene | mask test | rays | intersections/ray | cycles/ray | culled | wrong hits | other visits |\n"
-               "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+    fmt::print(
+        "| scene | mask test | rays | intersections/ray | cycles/ray | culled | wrong hits | other visits |\n"
+        "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   else
     fmt::print("{:<22}{:<13}{:>9}{:>13}{:>12}{:>10}{:>7}{:>7}{:>11}{:>10}\n", "scene", "mask test", "rays",
                "inters./ray", "cycles/ray", "culled", "wrong", "other", "cycles/s", "rays/s");
@@ -122,22 +123,25 @@ int bench_command(const BenchArgs& args) {
   plan.config = load_config(args.unit.config_path, args.unit.sets);
   const LoadedTrace trace(args.trace);
   plan.range = trace.range(0, 0);
-  fmt::print("{:<8}{:<9}{:>12}{:>14}{:>14}   median of {}\n", "mode", "source", "cycles", "Mcycles/s", "rays/s",
-             args.repeats);
+  fmt::print("{:<8}{:<9}{:>12}{:>14}{:>12}{:>14}{:>12}\n", "", "", "", "Mcycles for", "Mcycles", "rays for a", "rays");
+  fmt::print("{:<8}{:<9}{:>12}{:>14}{:>12}{:>14}{:>12}   medians of {}\n", "mode", "source", "cycles", "a core's s",
+             "a second", "core's s", "a second", args.repeats);
   for (const char* source : {"replay", "exec"}) {
     for (const char* mode : {"plain", "batch", "cycle", "pins"}) {
       plan.options.mode = parse_mode(mode);
       plan.options.source = parse_source(source);
-      std::vector<double> cycles_per_second, rays_per_second;
-      std::uint64_t cycles = 0;
+      std::vector<double> wall, processor;
+      std::uint64_t cycles = 0, rays = 0;
       for (int i = 0; i < args.repeats; ++i) {
         const RunRecord record = run_plan(trace, plan);
         cycles = record.result.cycles;
-        cycles_per_second.push_back(record.cycles_per_second());
-        rays_per_second.push_back(record.rays_per_second());
+        rays = record.result.rays;
+        wall.push_back(record.wall_seconds);
+        processor.push_back(record.processor_seconds);
       }
-      fmt::print("{:<8}{:<9}{:>12}{:>14.2f}{:>14.0f}\n", mode, source, cycles, median(cycles_per_second) / 1e6,
-                 median(rays_per_second));
+      fmt::print("{:<8}{:<9}{:>12}{:>14.2f}{:>12.2f}{:>14.0f}{:>12.0f}\n", mode, source, cycles,
+                 double(cycles) / median(processor) / 1e6, double(cycles) / median(wall) / 1e6,
+                 double(rays) / median(processor), double(rays) / median(wall));
       std::fflush(stdout);
     }
   }

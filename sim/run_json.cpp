@@ -106,6 +106,7 @@ void write_json(const RunRecord& record, const std::string& path) {
   json["intersections_per_ray"] = record.result.counts.intersections_per_ray();
   json["culled_share"] = record.result.counts.culled_share();
   json["wall_seconds"] = record.wall_seconds;
+  json["processor_seconds"] = record.processor_seconds;
   json["rays_per_second"] = record.rays_per_second();
   if (record.engine == "cycle") json.update(timed_json(record));
   json["counters"] = counters_json(record.result);

@@ -18,7 +18,8 @@ struct RunRecord {
   std::string config_hash;
   std::string design;
   pipeline::UnitResult result;
-  double wall_seconds = 0;  ///< of the simulation alone, without loading
+  double wall_seconds = 0;       ///< of the simulation alone, without loading
+  double processor_seconds = 0;  ///< likewise, of one core: what other programs take of a shared machine is not in it
 
   double cycles_per_ray() const;
   double cycles_per_second() const;

@@ -1,6 +1,5 @@
 #include "sim/unit_runner.h"
 
-#include <chrono>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "model/reference/traversal.h"
 #include "sim/config_file.h"
 #include "sim/progress.h"
+#include "sim/stopwatch.h"
 
 namespace ctu::sim {
 namespace {
@@ -64,9 +64,11 @@ pipeline::UnitResult run_reference(const LoadedTrace& trace, const cull::MaskTes
 /// Runs and times: the simulation with the reading of its rays, not the loading and table building before it.
 template <class Run>
 void run_timed(RunRecord& record, Run&& run) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch wall;
+  const ProcessStopwatch processor;
   record.result = run();
-  record.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.wall_seconds = wall.seconds();
+  record.processor_seconds = processor.seconds();
 }
 
 void run_cycle(const LoadedTrace& trace, const cull::MaskTester& tester, const RunPlan& plan, RunRecord& record) {
