@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper variants; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper variants compression tables designs; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants compression tables designs)
 
 page=docs/results.md
 plots=docs/plots
@@ -141,10 +141,54 @@ auto() {
   put auto-units
 }
 
+# Rows of one scene: every design that culls, computed by the unit, against what the reference recorded.
+walk() {  # NAME SCENE
+  keep log "$program" record "$2" -o "$scratch/trace.ctut" --size 96x54 --rays diffuse --compress 256 \
+    --designs mask-lut,comparators
+  keep rows "$program" compare "$scratch/trace.ctut" --source exec --markdown \
+    --designs mask-lut,bit-table,dedup,projection,comparators
+  sed -e 1,2d -e "s#^| [^|]* |#| $1 |#" "$scratch/rows"
+}
+
+designs() {
+  local name path scene
+  {
+    echo "| scene | mask test | rays | intersections/ray | cycles/ray | culled | wrong hits | other visits |"
+    echo "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |"
+    for scene in hair-ball curly-hair straight-hair tilted-quads foliage tetra; do walk "gen:$scene" "gen:$scene"; done
+    while read -r name path; do
+      case $name in balls | killeroo) continue ;; esac  # spheres and subdivision surfaces: refused
+      walk "$name" "$(dirname "$index")/$path"
+    done <"$index"
+  } >"$scratch/designs"
+  put designs
+}
+
+tables() {
+  local sizes
+  for sizes in "4 4" "4 8" "6 6" "6 12" "8 8"; do
+    # shellcheck disable=SC2086
+    "$program" tables --r ${sizes% *} --r-ray ${sizes#* } --entries 256 --markdown
+    echo
+  done >"$scratch/tables"
+  put tables
+}
+
+compression() {
+  local r
+  for r in 4 6; do
+    printf 'R = %s:\n\n' "$r"
+    keep rows "$program" compression --index "$index" --r "$r" --size 96x54 --markdown
+    cat "$scratch/rows"
+    echo
+  done >"$scratch/compression"
+  put compression
+}
+
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | variants) "$section" ;;
-    *) echo "no section $section: culling, auto, paper or variants" >&2; exit 2 ;;
+    culling | auto | paper | variants | designs | tables | compression) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, variants, designs, tables or compression" >&2; exit 2 ;;
   esac
 done
 exit "$failed"
