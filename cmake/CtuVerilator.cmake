@@ -13,8 +13,14 @@ else()
   set(CTU_RTL_CHECKED ON)
   execute_process(COMMAND ${CTU_VERILATOR} --getenv VERILATOR_ROOT
     OUTPUT_VARIABLE CTU_VERILATOR_ROOT OUTPUT_STRIP_TRAILING_WHITESPACE)
-  message(STATUS "RTL: ${CTU_VERILATOR}, yosys ${CTU_YOSYS}")
+  message(STATUS "RTL: checked with ${CTU_VERILATOR}")
+  if(NOT CTU_YOSYS)
+    message(STATUS "RTL: no yosys here, so rtl/ is not synthesised (Debian: apt-get install yosys)")
+  endif()
 endif()
+
+# Writes the C++ of all models, for tools that read sources without building them.
+add_custom_target(rtl_sources)
 
 # Verilator's own runtime, once for all models. Its warnings are not ours.
 function(ctu_verilator_runtime)
@@ -43,6 +49,9 @@ function(ctu_verilate library)
     COMMENT "Verilating ${ARG_TOP} as ${ARG_PREFIX}"
     VERBATIM)
   add_library(${library} STATIC ${folder}/all.cpp ${folder}/${ARG_PREFIX}.h)
+  add_custom_target(${library}_sources DEPENDS ${folder}/all.cpp)
+  add_dependencies(${library} ${library}_sources)
+  add_dependencies(rtl_sources ${library}_sources)
   target_include_directories(${library} SYSTEM PUBLIC ${folder})
   target_compile_options(${library} PRIVATE -w)
   target_link_libraries(${library} PUBLIC ctu_verilated)
