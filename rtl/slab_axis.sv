@@ -54,32 +54,34 @@ module slab_axis #(
   );
 
   // The ray that stands still on this axis: in the closed slab or not.
-  logic lo_above, hi_below, standing_q, outside_q, unused_equal_lo, unused_equal_hi, unused_nan_lo, unused_nan_hi;
+  logic lo_above, hi_below, on_lo, on_hi, outside, standing_q, outside_q, unused_nan_lo, unused_nan_hi;
   float_compare compare_lo (
       .a_i(origin_i),
       .b_i(lo_i),
       .less_o(lo_above),
-      .equal_o(unused_equal_lo),
+      .equal_o(on_lo),
       .unordered_o(unused_nan_lo)
   );
   float_compare compare_hi (
       .a_i(hi_i),
       .b_i(origin_i),
       .less_o(hi_below),
-      .equal_o(unused_equal_hi),
+      .equal_o(on_hi),
       .unordered_o(unused_nan_hi)
   );
+`ifdef CTU_MUTATE_OPEN_SLAB
+  assign outside = lo_above || hi_below || on_lo || on_hi;
+`else
+  assign outside = lo_above || hi_below;
+  wire unused_faces = &{1'b0, on_lo, on_hi};  // the slab is closed
+`endif
   pipe_row #(
       .WIDTH(2),
       .DEPTH(SUBTRACT_LATENCY + MULTIPLY_LATENCY)
   ) row_standing (
       .clk_i,
       .enable_i,
-`ifdef CTU_MUTATE_OPEN_SLAB
-      .data_i({zero_i, lo_above || hi_below || unused_equal_lo || unused_equal_hi}),
-`else
-      .data_i({zero_i, lo_above || hi_below}),
-`endif
+      .data_i({zero_i, outside}),
       .data_o({standing_q, outside_q})
   );
 
