@@ -236,6 +236,7 @@ void add_config(CLI::App& app, Parsed& parsed) {
 }
 
 void add_bench(CLI::App& app, Parsed& parsed) {
+  parsed.bench.unit.mode = parsed.bench.unit.source = "all";
   auto* command = app.add_subcommand("bench", "speed of the unit on a trace, in every mode, exec and replay");
   command->add_option("trace", parsed.bench.trace, "trace file")->required();
   add_unit_options(*command, parsed.bench.unit);

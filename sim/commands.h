@@ -116,7 +116,7 @@ struct TraceArgs {
 };
 
 struct BenchArgs {
-  std::string trace;
+  std::string trace;  ///< `unit.mode` and `unit.source` may be "all"
   UnitArgs unit;
   int repeats = 3;
 };

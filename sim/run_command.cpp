@@ -33,13 +33,6 @@ void parse_window(const std::string& window, unit::RunOptions& options) {
                 "write it as in --window 1000:2000");
 }
 
-unit::RunOptions run_options(const UnitArgs& args) {
-  unit::RunOptions options;
-  options.mode = parse_mode(args.mode);
-  options.source = parse_source(args.source);
-  return options;
-}
-
 void print_compare_header(bool markdown) {
   if (markdown)
     fmt::print(
@@ -67,11 +60,6 @@ void print_compare_row(const RunRecord& r, bool markdown) {
 
 /// What a run must show: the expected hits, by the recorded way.
 bool is_right(const RunRecord& record) { return record.result.wrong_hits == 0 && record.result.other_visits == 0; }
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 }  // namespace
 
@@ -115,37 +103,6 @@ int compare_command(const CompareArgs& args) {
     }
   }
   return all_right ? 0 : 1;
-}
-
-int bench_command(const BenchArgs& args) {
-  if (args.repeats < 1) throw Error("--repeats", "nothing to do", "give 1 or more");
-  RunPlan plan;
-  plan.config = load_config(args.unit.config_path, args.unit.sets);
-  const LoadedTrace trace(args.trace);
-  plan.range = trace.range(0, 0);
-  fmt::print("{:<8}{:<9}{:>12}{:>14}{:>12}{:>14}{:>12}\n", "", "", "", "Mcycles for", "Mcycles", "rays for a", "rays");
-  fmt::print("{:<8}{:<9}{:>12}{:>14}{:>12}{:>14}{:>12}   medians of {}\n", "mode", "source", "cycles", "a core's s",
-             "a second", "core's s", "a second", args.repeats);
-  for (const char* source : {"replay", "exec"}) {
-    for (const char* mode : {"plain", "batch", "cycle", "pins"}) {
-      plan.options.mode = parse_mode(mode);
-      plan.options.source = parse_source(source);
-      std::vector<double> wall, processor;
-      std::uint64_t cycles = 0, rays = 0;
-      for (int i = 0; i < args.repeats; ++i) {
-        const RunRecord record = run_plan(trace, plan);
-        cycles = record.result.cycles;
-        rays = record.result.rays;
-        wall.push_back(record.wall_seconds);
-        processor.push_back(record.processor_seconds);
-      }
-      fmt::print("{:<8}{:<9}{:>12}{:>14.2f}{:>12.2f}{:>14.0f}{:>12.0f}\n", mode, source, cycles,
-                 double(cycles) / median(processor) / 1e6, double(cycles) / median(wall) / 1e6,
-                 double(rays) / median(processor), double(rays) / median(wall));
-      std::fflush(stdout);
-    }
-  }
-  return 0;
 }
 
 int config_show_command(const UnitArgs& args, bool plain) {

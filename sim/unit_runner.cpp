@@ -87,6 +87,13 @@ void run_cycle(const LoadedTrace& trace, const cull::MaskTester& tester, const R
 unit::Mode parse_mode(const std::string& name) { return parse_choice("--mode", name, kModes); }
 unit::Source parse_source(const std::string& name) { return parse_choice("--source", name, kSources); }
 
+unit::RunOptions run_options(const UnitArgs& args) {
+  unit::RunOptions options;
+  options.mode = parse_mode(args.mode);
+  options.source = parse_source(args.source);
+  return options;
+}
+
 RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
   const cull::MaskTester tester = trace.tester(plan.config.mask_test.design);
   RunRecord record;

@@ -13,6 +13,8 @@ namespace ctu::sim {
 /// "plain", "batch", "cycle", "pins"; "replay", "exec". Error on anything else.
 unit::Mode parse_mode(const std::string& name);
 unit::Source parse_source(const std::string& name);
+/// Mode and source.
+unit::RunOptions run_options(const UnitArgs& args);
 
 struct RunPlan {
   std::string engine = "cycle";  ///< or "reference"
