@@ -39,7 +39,7 @@ struct UnitResult {
   std::uint64_t rays = 0;  ///< returned and checked
   std::uint64_t wrong_hits = 0;
   std::vector<WrongHit> first_wrong;  ///< up to 16
-  std::uint64_t other_visits = 0;  ///< exec: visits that are not the recorded ones; replay follows these
+  std::uint64_t other_visits = 0;     ///< exec: visits that are not the recorded ones; replay follows these
   reference::Counts counts;           ///< as the unit counted them
   std::vector<StageAccount> stages;
   std::vector<Counter> counters;      ///< cache, memory, tables, stack, queues

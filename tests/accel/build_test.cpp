@@ -10,6 +10,7 @@
 #include "model/accel/statistics.h"
 #include "model/base/error.h"
 #include "tests/accel/bits.h"
+#include "tests/accel/lane_bounds.h"
 #include "tests/accel/meshes.h"
 #include "tests/oracle/seed.h"
 
@@ -18,6 +19,8 @@ namespace {
 using namespace ctu;
 using accel::Bvh4;
 using accel::ChildRef;
+using test::Bounds;
+using test::lane_bounds;
 using test::NamedMesh;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -35,26 +38,6 @@ void for_each_tree(const accel::BuildOptions& options, Check&& check) {
     SCOPED_TRACE(m.name);
     check(m.mesh, accel::build(m.mesh, options));
   }
-}
-
-struct Bounds {
-  Vec3 lower{kInfinity, kInfinity, kInfinity}, upper{-kInfinity, -kInfinity, -kInfinity};
-  void grow(const Vec3& v) {
-    for (int a = 0; a < 3; ++a) {
-      lower[a] = std::min(lower[a], v[a]);
-      upper[a] = std::max(upper[a], v[a]);
-    }
-  }
-  bool operator==(const Bounds&) const = default;
-};
-
-Bounds lane_bounds(const accel::Node4& node, int lane) {
-  Bounds b;
-  for (int a = 0; a < 3; ++a) {
-    b.lower[a] = node.boxes.lo[a][lane];
-    b.upper[a] = node.boxes.hi[a][lane];
-  }
-  return b;
 }
 
 /// Checks that every lane's box is that of the vertices below it; returns those of the node.

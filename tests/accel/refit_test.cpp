@@ -10,6 +10,7 @@
 #include "model/base/error.h"
 #include "model/scene/load.h"
 #include "tests/accel/bits.h"
+#include "tests/accel/lane_bounds.h"
 #include "tests/accel/meshes.h"
 #include "tests/oracle/seed.h"
 #include "tests/support/motions.h"
@@ -19,6 +20,8 @@ namespace {
 using namespace ctu;
 using accel::Bvh4;
 using accel::ChildRef;
+using test::Bounds;
+using test::lane_bounds;
 using test::Motion;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -39,26 +42,6 @@ void for_each_motion(Body&& body) {
       SCOPED_TRACE(m.name + ", " + to_string(motion));
       body(m.mesh, test::moved(m.mesh, motion, oracle::test_seed()));
     }
-}
-
-struct Bounds {
-  Vec3 lower{kInfinity, kInfinity, kInfinity}, upper{-kInfinity, -kInfinity, -kInfinity};
-  void grow(const Vec3& v) {
-    for (int a = 0; a < 3; ++a) {
-      lower[a] = std::min(lower[a], v[a]);
-      upper[a] = std::max(upper[a], v[a]);
-    }
-  }
-  bool operator==(const Bounds&) const = default;
-};
-
-Bounds lane_bounds(const accel::Node4& node, int lane) {
-  Bounds bounds;
-  for (int a = 0; a < 3; ++a) {
-    bounds.lower[a] = node.boxes.lo[a][lane];
-    bounds.upper[a] = node.boxes.hi[a][lane];
-  }
-  return bounds;
 }
 
 /// Every triangle below a child.
