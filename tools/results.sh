@@ -101,6 +101,7 @@ variants() {
     variant "... 20,000 strands of 8 segments instead of 2,000 of 32" "gen:curly-hair?strands=20000&segments=8"
     variant "... and a quarter as wide" "gen:curly-hair?strands=20000&segments=8&thickness=0.0005"
     variant "... and one triangle a leaf" "gen:curly-hair?strands=20000&segments=8&thickness=0.0005" --leaf 1
+    variant "... 100,000 strands of 8 segments, a twentieth as wide" "gen:curly-hair?strands=100000&segments=8&thickness=0.0001"
     echo "| *paper: Curly Hair* | | 57.5 % | 62.5 % | 43.3 % | 50.6 % |"
     if grep -q '^straight-hair ' "$index"; then
       printf '\nWhat 256 entries cost against uncompressed masks, R_ray = R, in points:\n\n'
