@@ -42,7 +42,8 @@ function(ctu_verilate library)
   add_custom_command(
     OUTPUT ${folder}/all.cpp ${folder}/${ARG_PREFIX}.h
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}  # its files' names depend on the sources: no old one may stay
-    COMMAND ${CTU_VERILATOR} --cc -O3 -I${PROJECT_SOURCE_DIR}/rtl --Mdir ${folder} --prefix ${ARG_PREFIX}
+    COMMAND ${CTU_VERILATOR} --cc -O3 -I${PROJECT_SOURCE_DIR}/rtl
+      -I${PROJECT_SOURCE_DIR}/rtl/float --Mdir ${folder} --prefix ${ARG_PREFIX}
       --top-module ${ARG_TOP} ${ARG_ARGS} ${ARG_SOURCES}
     COMMAND ${CMAKE_COMMAND} -DFOLDER=${folder} -P ${PROJECT_SOURCE_DIR}/cmake/JoinVerilated.cmake
     DEPENDS ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/cmake/JoinVerilated.cmake

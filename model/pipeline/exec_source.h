@@ -18,6 +18,22 @@ class ExecSource {
  public:
   using Test = ComputedTest;
   static constexpr bool kComputes = true;
+  /// Words of a ray mask of the largest resolution.
+  static constexpr int kMaxWords = cull::words_per_mask(cull::kMaxResolution);
+
+  /// Computed values of a context.
+  struct Registers {
+    intersect::PreparedRay ray;
+    intersect::SlabTimes times;
+    intersect::Hit best;
+    reference::Step step;  ///< the visit's event so far
+    const reference::Step *recorded = nullptr, *recorded_end = nullptr;
+    std::uint8_t recorded_tail = 0;
+    std::uint8_t dropped = 0;  ///< since the last visit
+    std::uint32_t key[intersect::kLanes] = {};
+    std::uint64_t touched[intersect::kLanes][kMaxWords] = {};  ///< of comparators
+    float stack_t0[kMaxStackEntries] = {};
+  };
 
   ExecSource(const UnitConfig& config, const UnitImage& image, const cull::MaskTester& tester, Contexts& contexts);
 
@@ -38,24 +54,10 @@ class ExecSource {
   intersect::Hit finish(Slot slot, const accel::Image& bytes);
   /// Visits, and drops at the end of a ray, that differ from the recorded ones.
   std::uint64_t event_mismatches() const { return event_mismatches_; }
+  /// What the context holds now: what a twin's register files are compared with.
+  const Registers& registers(Slot slot) const { return registers_[slot]; }
 
  private:
-  /// A ray mask of the largest resolution.
-  static constexpr int kMaxWords = cull::words_per_mask(cull::kMaxResolution);
-
-  struct Registers {
-    intersect::PreparedRay ray;
-    intersect::SlabTimes times;
-    intersect::Hit best;
-    reference::Step step;  ///< the visit's event so far
-    const reference::Step *recorded = nullptr, *recorded_end = nullptr;
-    std::uint8_t recorded_tail = 0;
-    std::uint8_t dropped = 0;  ///< since the last visit
-    std::uint32_t key[intersect::kLanes] = {};
-    std::uint64_t touched[intersect::kLanes][kMaxWords] = {};  ///< of comparators
-    float stack_t0[kMaxStackEntries] = {};
-  };
-
   bool passes(const Registers& r, int lane) const;
   /// The cells the ray touches, by the design's tables or comparators; `projected` is room for a mask.
   const std::uint64_t* ray_mask(const Registers& r, int lane, std::uint64_t* projected) const;

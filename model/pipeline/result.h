@@ -46,8 +46,8 @@ struct UnitResult {
   std::vector<Cause> ray_cycles;      ///< where rays spent their time; sums to ray_latency_sum
   std::uint64_t ray_latency_sum = 0;  ///< cycles from a ray's entry into its context to its return, summed over rays
   std::vector<std::string> left_out;  ///< stages and tables this run does not need, and what that saved (contract 5)
-  std::uint64_t event_log_hash =
-      0;  ///< over (cycle, ray, step) of every visit and return: equal in every execution mode
+  /// Over (cycle, ray, step) of every visit and return: equal in every execution mode.
+  std::uint64_t event_log_hash = 0;
 };
 
 }  // namespace ctu::pipeline

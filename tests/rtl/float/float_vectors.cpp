@@ -1,4 +1,4 @@
-#include "tests/rtl/float_vectors.h"
+#include "tests/rtl/float/float_vectors.h"
 
 namespace ctu::rtl {
 

@@ -1,4 +1,4 @@
-// A Verilated tests/rtl/lane_bench.sv, clocked: boxes enter one a cycle, and what leaves is compared with the slab
+// A Verilated tests/rtl/stages/lane_bench.sv, clocked: boxes enter one a cycle, and what leaves is compared with the slab
 // test.
 #pragma once
 

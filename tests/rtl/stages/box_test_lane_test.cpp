@@ -10,7 +10,7 @@
 #include "VMutantUnmirroredPlanes.h"
 #include "VMutantZeroDistance.h"
 #include "tests/oracle/seed.h"
-#include "tests/rtl/verilated_lane.h"
+#include "tests/rtl/stages/verilated_lane.h"
 
 namespace ctu::rtl {
 namespace {

@@ -16,9 +16,9 @@
 #include "VMutantZerosEqual.h"
 #include "VMutantZerosOrdered.h"
 #include "tests/oracle/seed.h"
-#include "tests/rtl/float_operations.h"
-#include "tests/rtl/float_vectors.h"
-#include "tests/rtl/verilated_float_unit.h"
+#include "tests/rtl/float/float_operations.h"
+#include "tests/rtl/float/float_vectors.h"
+#include "tests/rtl/float/verilated_float_unit.h"
 
 namespace ctu::rtl {
 namespace {

@@ -10,9 +10,9 @@
 #include "VFloatMinMax.h"
 #include "VFloatMul.h"
 #include "tests/oracle/seed.h"
-#include "tests/rtl/float_operations.h"
-#include "tests/rtl/float_vectors.h"
-#include "tests/rtl/verilated_float_unit.h"
+#include "tests/rtl/float/float_operations.h"
+#include "tests/rtl/float/float_vectors.h"
+#include "tests/rtl/float/verilated_float_unit.h"
 
 namespace ctu::rtl {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/rtl/float_operations.h"
+#include "tests/rtl/float/float_operations.h"
 
 #include <cstdio>
 

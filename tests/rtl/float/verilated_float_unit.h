@@ -1,11 +1,11 @@
-// A Verilated tests/rtl/float_bench.sv as a FloatUnit.
+// A Verilated tests/rtl/float/float_bench.sv as a FloatUnit.
 #pragma once
 
 #include <verilated.h>
 
 #include <algorithm>
 
-#include "tests/rtl/float_operations.h"
+#include "tests/rtl/float/float_operations.h"
 
 namespace ctu::rtl {
 

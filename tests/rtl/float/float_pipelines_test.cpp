@@ -9,8 +9,8 @@
 
 #include "VFloatPipelines.h"
 #include "tests/oracle/seed.h"
-#include "tests/rtl/float_operations.h"
-#include "tests/rtl/float_vectors.h"
+#include "tests/rtl/float/float_operations.h"
+#include "tests/rtl/float/float_vectors.h"
 
 namespace ctu::rtl {
 namespace {

@@ -1,0 +1,103 @@
+// A Verilated stage beside the model's: what the model's stage sees on its links in every cycle is what the twin sees,
+// and what the twin does must be what the model's stage did in that cycle.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <verilated.h>
+
+#include <bit>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/pipeline/tapped_unit.h"
+#include "tests/pipeline/world.h"
+
+namespace ctu::rtl {
+
+using pipeline::Cycle;
+
+/// The run of a whole unit over a world's rays, cycle by cycle.
+class StageRun {
+ public:
+  /// `stall_seed` not 0: every link refuses at random.
+  StageRun(const test::World& world, const pipeline::UnitConfig& config, std::uint64_t stall_seed)
+      : feed_(world.blocks()), unit_(config, {world.image(), world.tester(), feed_}, {.seed = stall_seed}) {}
+
+  pipeline::TappedUnit& unit() { return unit_; }
+
+  /// Steps the model to its end; behind each cycle `compare(cycle)` drives the twin with the sampled ports and
+  /// compares. Ends early at the first failure, which is reported with its cycle.
+  void each_cycle(const std::function<void(Cycle)>& compare) {
+    while (!unit_.done()) {
+      const Cycle now = unit_.cycles();
+      ASSERT_LT(now, kLongest) << "the model does not end";
+      unit_.step();
+      compare(now);
+      ASSERT_FALSE(testing::Test::HasFailure()) << "in cycle " << now;
+    }
+  }
+
+ private:
+  static constexpr Cycle kLongest = 10'000'000;
+  test::VectorFeed feed_;
+  pipeline::TappedUnit unit_;
+};
+
+/// Raises the clock once, after the inputs of a cycle have been looked at.
+template <class Model>
+void clock(Model& model) {
+  model.clk_i = 1;
+  model.eval();
+  model.clk_i = 0;
+  model.eval();
+}
+
+/// Two clocks in reset.
+template <class Model>
+void reset(Model& model) {
+  model.clk_i = 0;
+  model.rst_i = 1;
+  for (int i = 0; i < 2; ++i) clock(model);
+  model.rst_i = 0;
+  model.eval();
+}
+
+/// Writes fields into a wide vector, lowest bits first: what Verilator keeps in an array of 32-bit words.
+class BitWriter {
+ public:
+  explicit BitWriter(std::uint32_t* words) : words_(words) {}
+  BitWriter& put(std::uint64_t value, int bits) {
+    for (int i = 0; i < bits; ++i, ++at_) {
+      const std::uint32_t bit = 1u << (at_ & 31);
+      if ((value >> i & 1) != 0)
+        words_[at_ / 32] |= bit;
+      else
+        words_[at_ / 32] &= ~bit;
+    }
+    return *this;
+  }
+  BitWriter& put(float value) { return put(std::bit_cast<std::uint32_t>(value), 32); }
+
+ private:
+  std::uint32_t* words_;
+  std::size_t at_ = 0;
+};
+
+/// Reads fields from a wide vector, lowest bits first.
+class BitReader {
+ public:
+  explicit BitReader(const std::uint32_t* words) : words_(words) {}
+  std::uint64_t take(int bits) {
+    std::uint64_t value = 0;
+    for (int i = 0; i < bits; ++i, ++at_) value |= static_cast<std::uint64_t>(words_[at_ / 32] >> (at_ & 31) & 1) << i;
+    return value;
+  }
+
+ private:
+  const std::uint32_t* words_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace ctu::rtl
