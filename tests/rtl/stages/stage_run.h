@@ -7,8 +7,10 @@
 
 #include <bit>
 #include <cstdint>
+#include <cstdio>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/pipeline/tapped_unit.h"
@@ -39,10 +41,44 @@ class StageRun {
     }
   }
 
+  /// Like each_cycle, for twins that may be broken on purpose: `difference()` tells what differs in the cycle, nothing
+  /// when nothing does, and the first one is returned with its cycle.
+  std::string first_difference(const std::function<std::string()>& difference) {
+    while (!unit_.done()) {
+      const Cycle now = unit_.cycles();
+      if (now >= kLongest) return "the model does not end";
+      unit_.step();
+      const std::string found = difference();
+      if (!found.empty()) return "cycle " + std::to_string(now) + ": " + found;
+    }
+    return "";
+  }
+
  private:
   static constexpr Cycle kLongest = 10'000'000;
   test::VectorFeed feed_;
   pipeline::TappedUnit unit_;
+};
+
+/// What differs between twin and model in a cycle: the first of several comparisons.
+class Difference {
+ public:
+  Difference& same(const char* what, std::uint64_t twin, std::uint64_t model) {
+    ++compared_;
+    if (twin == model || !text_.empty()) return *this;
+    char text[128];
+    std::snprintf(text, sizeof text, "%s: twin 0x%llx, model 0x%llx", what, static_cast<unsigned long long>(twin),
+                  static_cast<unsigned long long>(model));
+    text_ = text;
+    return *this;
+  }
+  /// The difference found since the last call, empty if none.
+  std::string take() { return std::exchange(text_, {}); }
+  std::uint64_t compared() const { return compared_; }
+
+ private:
+  std::string text_;
+  std::uint64_t compared_ = 0;
 };
 
 /// Raises the clock once, after the inputs of a cycle have been looked at.

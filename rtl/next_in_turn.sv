@@ -1,0 +1,23 @@
+// next_in_turn: the first member of a set at or after a place, going round; combinational.
+//
+//   twin    model/pipeline/slot_set.h, next_from
+module next_in_turn #(
+    parameter int PLACE_BITS = 5
+) (
+    input  logic [(1<<PLACE_BITS)-1:0] members_i,
+    input  logic [     PLACE_BITS-1:0] start_i,
+    output logic                       found_o,   // the set is not empty
+    output logic [     PLACE_BITS-1:0] place_o    // of the empty set: 0
+);
+  localparam int PLACES = 1 << PLACE_BITS;
+
+  // Members before the start count only where there is none behind it. The lowest of what is left is the one.
+  logic [PLACES-1:0] behind, left;
+  always_comb begin
+    behind = members_i & ({PLACES{1'b1}} << start_i);
+    left = behind != '0 ? behind : members_i;
+    found_o = members_i != '0;
+    place_o = '0;
+    for (int place = PLACES - 1; place >= 0; place--) if (left[place]) place_o = PLACE_BITS'(place);
+  end
+endmodule
