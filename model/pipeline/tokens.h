@@ -69,9 +69,9 @@ struct LeafDone {
   bool operator==(const LeafDone&) const = default;
 };
 
-/// One line from or to memory. Writes are not answered.
+/// One line from memory, or a batch of stack entries to their place in one. Writes are not answered.
 struct MemoryRequest {
-  std::uint64_t address = 0;  ///< of the line, bytes
+  std::uint64_t address = 0;  ///< bytes; of a line, or of a batch in it
   std::uint16_t id = 0;       ///< the client's own name for it, given back in the answer
   bool write = false;
   bool operator==(const MemoryRequest&) const = default;

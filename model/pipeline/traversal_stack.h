@@ -217,9 +217,9 @@ class TraversalStack {
     contexts_.move(slot, now, Place::Stack);
   }
 
+  /// Of the batch that begins with entry `position`. It crosses no line, as all sizes are powers of two.
   std::uint64_t spill_address(int position) const {
-    const std::uint64_t byte = static_cast<std::uint64_t>(position) * kStackEntryBytes;
-    return map_.spill_base + slot_ * map_.spill_region + byte / map_.line_bytes * map_.line_bytes;
+    return map_.spill_base + slot_ * map_.spill_region + static_cast<std::uint64_t>(position) * kStackEntryBytes;
   }
 
   Contexts& contexts_;
