@@ -67,22 +67,18 @@ module float_add #(
                round_q1})
   );
 
-  // 2: the smaller one shifted into place with two bits more, what falls off kept as one sticky bit; the sum. Where
-  // bits fall off, the sum has its highest one in its first three places, so two bits and the sticky one suffice.
-  logic [25:0] wide_smaller, aligned;
-  logic sticky;
+  // 2: the smaller one moved into place; the sum.
   logic [27:0] sum;
-  always_comb begin
-    wide_smaller = {smaller_q1, 2'b00};
-    aligned = distance_q1[7:5] != 3'd0 ? 26'd0 : wide_smaller >> distance_q1[4:0];
-    sticky = distance_q1[7:5] != 3'd0 ? smaller_q1 != 24'd0
-                                      : (wide_smaller & ~(26'h3ffffff << distance_q1[4:0])) != 26'd0;
-`ifdef CTU_MUTATE_ALIGNMENT_STICKY
-    sticky = 1'b0;
-`endif
-    sum = opposite_q1 ? {1'b0, larger_q1, 3'b000} - {1'b0, aligned, sticky}
-                      : {1'b0, larger_q1, 3'b000} + {1'b0, aligned, sticky};
-  end
+  align_add #(
+      .WIDTH(24),
+      .DISTANCE_BITS(8)
+  ) align (
+      .larger_i(larger_q1),
+      .smaller_i(smaller_q1),
+      .distance_i(distance_q1),
+      .opposite_i(opposite_q1),
+      .sum_o(sum)
+  );
 
   logic [27:0] sum_q2;
   logic [7:0] exponent_q2;

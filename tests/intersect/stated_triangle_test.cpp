@@ -9,53 +9,35 @@
 namespace ctu::intersect {
 namespace {
 
-using numeric::Round;
 using oracle::exact;
+using oracle::quotient_binary32;
 using oracle::Rational;
-
-Rational times_power_of_two(const Rational& x, long exponent) {
-  Rational result;
-  if (exponent >= 0)
-    mpq_mul_2exp(result.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-  else
-    mpq_div_2exp(result.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-  return result;
-}
-
-/// R(x): 24 bits, to nearest even, any exponent. Binary32's rounding after moving x to about 1.
-Rational rounded(const Rational& x) {
-  if (x == 0) return x;
-  const long exponent =
-      static_cast<long>(mpz_sizeinbase(x.get_num_mpz_t(), 2)) - static_cast<long>(mpz_sizeinbase(x.get_den_mpz_t(), 2));
-  return times_power_of_two(exact(oracle::round_rational(times_power_of_two(x, -exponent), Round::Nearest)), exponent);
-}
-
-float to_binary32(const Rational& x) { return x == 0 ? 0.0f : oracle::round_rational(x, Round::Nearest); }
+using oracle::round24;
 
 struct Corner {
   Rational x, y, z;
 
   Corner(const PreparedRay& ray, const Vec3& vertex) {
-    const auto from_origin = [&](int axis) { return rounded(exact(vertex[axis]) - exact(ray.ray.origin[axis])); };
+    const auto from_origin = [&](int axis) { return round24(exact(vertex[axis]) - exact(ray.ray.origin[axis])); };
     z = from_origin(ray.kz);
-    x = rounded(from_origin(ray.kx) - rounded(exact(ray.sx) * z));
-    y = rounded(from_origin(ray.ky) - rounded(exact(ray.sy) * z));
+    x = round24(from_origin(ray.kx) - round24(exact(ray.sx) * z));
+    y = round24(from_origin(ray.ky) - round24(exact(ray.sy) * z));
   }
 };
 
 TriangleResult stated(const PreparedRay& ray, const Vec3 (&v)[3], float tmax) {
   const Corner a(ray, v[0]), b(ray, v[1]), c(ray, v[2]);
-  const Rational u = rounded(c.x * b.y - c.y * b.x), w_of_b = rounded(a.x * c.y - a.y * c.x),
-                 w = rounded(b.x * a.y - b.y * a.x);
+  const Rational u = round24(c.x * b.y - c.y * b.x), w_of_b = round24(a.x * c.y - a.y * c.x),
+                 w = round24(b.x * a.y - b.y * a.x);
   const bool negative = u < 0 || w_of_b < 0 || w<0, positive = u> 0 || w_of_b > 0 || w > 0;
   if (negative && positive) return {};
-  const Rational det = rounded(rounded(u + w_of_b) + w);
+  const Rational det = round24(round24(u + w_of_b) + w);
   if (det == 0) return {};
-  const Rational depth = rounded(rounded(rounded(u * a.z) + rounded(w_of_b * b.z)) + rounded(w * c.z));
-  const Rational scaled = rounded(det * exact(ray.ray.direction[ray.kz]));
-  const float t = to_binary32(depth / scaled);
+  const Rational depth = round24(round24(round24(u * a.z) + round24(w_of_b * b.z)) + round24(w * c.z));
+  const Rational scaled = round24(det * exact(ray.ray.direction[ray.kz]));
+  const float t = quotient_binary32(depth / scaled);
   if (!(ray.ray.tmin <= t && t <= tmax)) return {};
-  return {true, t, to_binary32(w_of_b / det), to_binary32(w / det)};
+  return {true, t, quotient_binary32(w_of_b / det), quotient_binary32(w / det)};
 }
 
 void expect_stated_bits(double smallest, double largest, int cases) {

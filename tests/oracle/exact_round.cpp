@@ -29,6 +29,15 @@ long binary_exponent(const Rational& x) {
   return x < power ? guess - 1 : guess;
 }
 
+Rational times_power_of_two(const Rational& x, long exponent) {
+  Rational result;
+  if (exponent >= 0)
+    mpq_mul_2exp(result.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  else
+    mpq_div_2exp(result.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  return result;
+}
+
 /// Whether a magnitude between two neighbours goes to the upper one; `half` is 2 x remainder compared with one.
 bool goes_up(Round round, bool negative, bool exact, int half, bool lower_is_odd) {
   if (exact) return false;
@@ -83,6 +92,15 @@ float round_rational(const Rational& x, Round round) {
   const bool to_infinity = round == Round::Nearest || (round == Round::Up) != negative;
   return with_sign(negative, to_infinity ? 0x7f800000u : 0x7f7fffffu);
 }
+
+Rational round24(const Rational& x) {
+  if (x == 0) return x;
+  // Binary32's rounding, after moving x to about 1.
+  const long exponent = binary_exponent(abs(x));
+  return times_power_of_two(exact(round_rational(times_power_of_two(x, -exponent), Round::Nearest)), exponent);
+}
+
+float quotient_binary32(const Rational& x) { return x == 0 ? 0.0f : round_rational(x, Round::Nearest) + 0.0f; }
 
 float exact_operation(Operation operation, Round round, float a, float b) {
   const bool divides_by_zero = operation == Operation::Div && b == 0;

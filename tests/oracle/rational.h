@@ -16,6 +16,12 @@ using Vec3q = std::array<Rational, 3>;
 /// A rational that is not zero, rounded to binary32; overflow and underflow as IEEE 754 says.
 float round_rational(const Rational& x, numeric::Round round);
 
+/// To 24 significant bits, to nearest even, whatever the exponent: the numbers inside the triangle test.
+Rational round24(const Rational& x);
+
+/// The triangle test's results: binary32, to nearest even, every zero +0.
+float quotient_binary32(const Rational& x);
+
 inline Rational exact(float x) { return Rational(static_cast<double>(x)); }
 inline Vec3q exact(const Vec3& v) { return {exact(v.x), exact(v.y), exact(v.z)}; }
 
