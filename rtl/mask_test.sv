@@ -1,0 +1,352 @@
+// mask_test: does the ray touch an occupied cell? Reads what the design's tables hold for the key of each lane asked (or
+// takes the cells that comparators found) and ANDs it with the lane's object mask, which compressed masks fetch from the
+// compression LUT by the lane's index; or reads the answer as one bit of a row.
+//
+//   latency LATENCY, and SECOND_LATENCY more for dedup; a node whose reads do not fit the banks' ports keeps the entrance
+//           for more cycles (table_memory)
+//   twin    model/pipeline/mask_test.h, table_banks.h, ExecSource::mask_test (model/pipeline/exec_source.cpp)
+//
+// Lanes not asked and lanes whose key is uncertain survive without a read. The rows stand in the first register of
+// the pipeline, which is the memories' own; they are tested in the cycle in which they stand there, and what is left of
+// the latency carries the answer. dedup's second memory is read with what stands in that register; how many turns
+// that takes is known only then, which is in time: the entrance is kept for the turns of both memories less one.
+//
+// Keys are read in the cycle of the pop; object masks and touched cells where the rows meet them, one cycle behind the
+// last turn of reads, by the slot of that token; the indices that read the compression LUT in the cycle of the pop.
+// A host fills the tables before it lets rays in: memories are numbered and rows have the content of
+// cull::TableContent (model/cull/table_content.h).
+`include "mask_designs.svh"
+`include "tokens.svh"
+
+module mask_test #(
+    parameter int DESIGN = `CTU_DESIGN_PROJECTION,
+    parameter int R = 4,
+    parameter int R_RAY = 4,
+    parameter int ENTRIES = 0,             // of the compression LUT at most; 0: object masks are not compressed
+    parameter int DISTINCT = 1270,         // masks or bit rows of dedup at most
+    parameter int PROJECTION_TABLES = 3,   // or 1
+    parameter int BANKS = 4,               // a power of two
+    parameter int PORTS = 1,
+    parameter int LATENCY = 2,
+    parameter int SECOND_LATENCY = 1,
+    parameter int SLOT_BITS = 5,
+    // Bytes of a lane's object mask in the node: of R^3 bits, or of what the scene's largest index needs.
+    parameter int MASK_BYTES = ((ENTRIES > 1 ? $clog2(ENTRIES) : ENTRIES > 0 ? 1 : R * R * R) + 7) / 8,
+    // Follow from these:
+    localparam int CELLS = R * R * R,
+    localparam int KEY_BITS = DESIGN == `CTU_DESIGN_COMPARATORS ? CELLS : 31,
+    localparam int INDEX_BITS = ENTRIES > 1 ? $clog2(ENTRIES) : 1,
+    localparam int MASK_BITS = 8 * MASK_BYTES,
+    localparam bit BIT_ROWS =
+        DESIGN == `CTU_DESIGN_BIT_TABLE || (DESIGN == `CTU_DESIGN_DEDUP && ENTRIES > 0),
+    localparam int ROW_WIDTH = BIT_ROWS ? ENTRIES : DESIGN == `CTU_DESIGN_PROJECTION ? R * R : CELLS,
+    localparam int LOAD_BITS = ENTRIES > 0 && !BIT_ROWS ? CELLS : ROW_WIDTH > 32 ? ROW_WIDTH : 32
+) (
+    input  logic                                   clk_i,
+    input  logic                                   rst_i,
+    // link located: the lanes hit and asked
+    input  logic                                   located_valid_i,
+    input  logic [SLOT_BITS+`CTU_NODE_FIELDS-1:0] located_data_i,
+    output logic                                   located_pop_o,
+    // link survivors
+    input  logic                                   survivors_ready_i,
+    output logic                                   survivors_push_o,
+    output logic [SLOT_BITS+`CTU_NODE_FIELDS-1:0] survivors_data_o,
+    // keys {uncertain, end, begin}, or of comparators the cells touched; the first lane lowest
+    output logic [                  SLOT_BITS-1:0] key_slot_o,
+    input  logic [                 4*KEY_BITS-1:0] key_i,
+    // object masks or indices as they lie in the node; the first lane lowest
+    output logic [                  SLOT_BITS-1:0] mask_slot_o,
+    input  logic [                4*MASK_BITS-1:0] mask_i,
+    // tables
+    input  logic                                   load_valid_i,
+    input  logic [                            1:0] load_table_i,
+    input  logic [                           27:0] load_row_i,
+    input  logic [                  LOAD_BITS-1:0] load_data_i,
+    output logic [                            3:0] activity_o
+);
+  localparam bit IS_PROJECTION = DESIGN == `CTU_DESIGN_PROJECTION;
+  localparam bit IS_DEDUP = DESIGN == `CTU_DESIGN_DEDUP;
+  localparam bit IS_KEYED = DESIGN != `CTU_DESIGN_COMPARATORS;
+  localparam bit HAS_LUT = ENTRIES > 0 && !BIT_ROWS;
+  // Memories that keys read; each is read by KEY_READS rows of a lane.
+  localparam int KEY_TABLES = !IS_KEYED ? 0 : IS_PROJECTION ? PROJECTION_TABLES : 1;
+  localparam int ROWS_OF_LANE = IS_PROJECTION ? 3 : 1;
+  localparam int READS_OF_LANE = IS_KEYED ? ROWS_OF_LANE / KEY_TABLES : 1;
+  localparam int LUT_TABLE = KEY_TABLES;
+  localparam int CELL_PAIRS = R_RAY * R_RAY;
+  localparam int TABLE_ROWS = CELL_PAIRS * CELL_PAIRS * (IS_PROJECTION ? 1 : CELL_PAIRS);
+  localparam int ROW_BITS = $clog2(TABLE_ROWS);
+  localparam int ID_BITS = DISTINCT > 1 ? $clog2(DISTINCT) : 1;
+  localparam int TABLE_WIDTH = IS_DEDUP ? ID_BITS : ROW_WIDTH;
+  localparam int LANE_BITS = ROW_WIDTH * ROWS_OF_LANE;  // what a lane's test sees
+  localparam int OBJECT_BITS = BIT_ROWS ? INDEX_BITS : CELLS;
+
+  // The token that enters.
+  logic [SLOT_BITS-1:0] slot;
+  logic [3:0] hits, asked, uncertain, reads;
+  logic enter, can_enter, enable, empty;
+  assign slot = located_data_i[`CTU_NODE_FIELDS+:SLOT_BITS];
+  assign hits = located_data_i[19:16];
+  assign asked = located_data_i[3:0];
+  assign reads = asked & ~uncertain;
+  assign enter = located_valid_i && can_enter;
+  assign located_pop_o = enter;
+  wire unused_fields = &{1'b0, located_data_i[15:4]};
+
+  // What travels with its reads, and stands beside the rows when they are there: {slot, hits, lanes with a question}.
+  localparam int INFO_BITS = SLOT_BITS + 8;
+  logic [INFO_BITS-1:0] info_q, tested;
+  always_ff @(posedge clk_i) if (enter) info_q <= {slot, hits, reads};
+  wire [SLOT_BITS-1:0] tested_slot = tested[8+:SLOT_BITS];
+
+  // Reads by key.
+  logic [4*(KEY_TABLES+1)-1:0] turns_of;  // by table; the compression LUT's last
+  logic [3:0] turns;
+  logic [4*TABLE_WIDTH*ROWS_OF_LANE-1:0] key_rows;  // by lane
+  always_comb begin
+    turns = 4'd1;
+    for (int table_number = 0; table_number <= KEY_TABLES; table_number++)
+      if (turns_of[4*table_number+:4] > turns) turns = turns_of[4*table_number+:4];
+  end
+  generate
+    if (IS_KEYED) begin : g_keyed
+      logic [4*ROWS_OF_LANE*ROW_BITS-1:0] row;
+      for (genvar lane = 0; lane < 4; lane++) begin : g_lane
+        wire [14:0] cells_begin = key_i[31*lane+:15];
+        wire [14:0] cells_end = key_i[31*lane+15+:15];
+        assign uncertain[lane] = key_i[31*lane+30];
+        if (IS_PROJECTION) begin : g_pairs
+          for (genvar pair = 0; pair < 3; pair++) begin : g_pair
+            localparam int A = pair == 1 ? 1 : 0;  // xy, yz, xz
+            localparam int B = pair == 0 ? 1 : 2;
+            key_row #(
+                .AXES(2),
+                .R_RAY(R_RAY),
+                .ROW_BITS(ROW_BITS)
+            ) number (
+                .begin_i({cells_begin[5*B+:5], cells_begin[5*A+:5]}),
+                .end_i({cells_end[5*B+:5], cells_end[5*A+:5]}),
+                .row_o(row[ROW_BITS*(3*lane+pair)+:ROW_BITS])
+            );
+          end
+        end else begin : g_key
+          key_row #(
+              .AXES(3),
+              .R_RAY(R_RAY),
+              .ROW_BITS(ROW_BITS)
+          ) number (
+              .begin_i(cells_begin),
+              .end_i(cells_end),
+              .row_o(row[ROW_BITS*lane+:ROW_BITS])
+          );
+        end
+      end
+      for (genvar t = 0; t < KEY_TABLES; t++) begin : g_table
+        // Read i of a table is row i mod READS_OF_LANE, from t on, of lane i / READS_OF_LANE.
+        localparam int READS = 4 * READS_OF_LANE;
+        logic [READS-1:0] valid;
+        logic [READS*ROW_BITS-1:0] table_row;
+        logic [READS*TABLE_WIDTH-1:0] data;
+        for (genvar i = 0; i < READS; i++) begin : g_read
+          localparam int LANE = i / READS_OF_LANE;
+          localparam int ROW = ROWS_OF_LANE * LANE + t + i % READS_OF_LANE;
+          assign valid[i] = reads[LANE];
+          assign table_row[ROW_BITS*i+:ROW_BITS] = row[ROW_BITS*ROW+:ROW_BITS];
+          assign key_rows[TABLE_WIDTH*ROW+:TABLE_WIDTH] = data[TABLE_WIDTH*i+:TABLE_WIDTH];
+        end
+        table_memory #(
+            .ROWS(TABLE_ROWS),
+            .WIDTH(TABLE_WIDTH),
+            .READS(READS),
+            .BANKS(BANKS),
+            .PORTS(PORTS)
+        ) memory (
+            .clk_i,
+            .rst_i,
+            .enable_i(enable),
+            .load_valid_i(load_valid_i && load_table_i == 2'(t)),
+            .load_row_i(load_row_i[ROW_BITS-1:0]),
+            .load_data_i(load_data_i[TABLE_WIDTH-1:0]),
+            .start_i(enter),
+            .valid_i(valid),
+            .row_i(table_row),
+            .turns_o(turns_of[4*t+:4]),
+            .data_o(data)
+        );
+      end
+      assign key_slot_o = slot;
+    end else begin : g_cells
+      assign uncertain = 4'd0;
+      assign key_rows = key_i;
+      assign key_slot_o = tested_slot;
+    end
+  endgenerate
+
+  // Object masks, from the compression LUT where they are compressed.
+  logic [4*OBJECT_BITS-1:0] objects;
+  logic [4*INDEX_BITS-1:0] index;
+  generate
+    for (genvar lane = 0; lane < 4; lane++) begin : g_index
+      assign index[INDEX_BITS*lane+:INDEX_BITS] = INDEX_BITS'(mask_i[MASK_BITS*lane+:MASK_BITS]);
+    end
+    if (HAS_LUT) begin : g_lut
+      table_memory #(
+          .ROWS(ENTRIES),
+          .WIDTH(CELLS),
+          .READS(4),
+          .BANKS(BANKS),
+          .PORTS(PORTS)
+      ) memory (
+          .clk_i,
+          .rst_i,
+          .enable_i(enable),
+          .load_valid_i(load_valid_i && load_table_i == 2'(LUT_TABLE)),
+          .load_row_i(load_row_i[INDEX_BITS-1:0]),
+          .load_data_i(load_data_i[CELLS-1:0]),
+          .start_i(enter),
+          .valid_i(reads),
+          .row_i(index),
+          .turns_o(turns_of[4*KEY_TABLES+:4]),
+          .data_o(objects)
+      );
+      assign mask_slot_o = slot;
+    end else begin : g_no_lut
+      for (genvar lane = 0; lane < 4; lane++) begin : g_object
+        if (BIT_ROWS) begin : g_bit
+          assign objects[OBJECT_BITS*lane+:OBJECT_BITS] = index[INDEX_BITS*lane+:INDEX_BITS];
+        end else begin : g_mask
+          assign objects[OBJECT_BITS*lane+:OBJECT_BITS] = mask_i[MASK_BITS*lane+:OBJECT_BITS];
+        end
+      end
+      assign turns_of[4*KEY_TABLES+:4] = 4'd1;
+      assign mask_slot_o = tested_slot;
+    end
+  endgenerate
+  wire unused_tables = &{1'b0, load_valid_i, load_table_i, load_row_i, load_data_i, mask_i, index};
+
+  // The pipeline, and what of the rows a lane's test sees.
+  logic [4*LANE_BITS-1:0] rows;
+  logic exit;
+  generate
+    if (IS_DEDUP) begin : g_twice
+      // First the ids, then what they number.
+      logic [3:0] rest_q;  // turns that the ids still take, this one's included
+      logic there_q;  // they stand in the first memory's register
+      logic start, rows_can_enter, last_turn, rows_empty;
+      logic [3:0] turns_by_id;
+      logic [INFO_BITS-1:0] info_by_id_q;
+      assign start = there_q && enable;
+      assign can_enter = enable && rest_q == 4'd0 && (last_turn || (rows_can_enter && !there_q));
+      assign empty = rest_q == 4'd0 && !there_q && rows_empty;
+      assign tested = info_by_id_q;
+      always_ff @(posedge clk_i) begin
+        if (rst_i) begin
+          rest_q <= 4'd0;
+          there_q <= 1'b0;
+        end else if (enable) begin
+          rest_q <= enter ? turns - 4'd1 : rest_q == 4'd0 ? 4'd0 : rest_q - 4'd1;
+          there_q <= rest_q == 4'd1 || (enter && turns == 4'd1);
+        end
+      end
+      always_ff @(posedge clk_i) if (start) info_by_id_q <= info_q;
+      table_memory #(
+          .ROWS(DISTINCT),
+          .WIDTH(ROW_WIDTH),
+          .READS(4),
+          .BANKS(BANKS),
+          .PORTS(PORTS)
+      ) memory (
+          .clk_i,
+          .rst_i,
+          .enable_i(enable),
+          .load_valid_i(load_valid_i && load_table_i == 2'd1),
+          .load_row_i(load_row_i[ID_BITS-1:0]),
+          .load_data_i(load_data_i[ROW_WIDTH-1:0]),
+          .start_i(start),
+          .valid_i(info_q[3:0]),
+          .row_i(key_rows),
+          .turns_o(turns_by_id),
+          .data_o(rows)
+      );
+      logic unused_exit_valid;
+      pipe_control #(
+          .LATENCY(LATENCY + SECOND_LATENCY - 1),
+          .OCCUPIES_BITS(4)
+      ) control (
+          .clk_i,
+          .rst_i,
+          .enter_i(start),
+          .occupies_i(turns_by_id),
+          .ready_i(survivors_ready_i),
+          .can_enter_o(rows_can_enter),
+          .start_o(last_turn),
+          .enable_o(enable),
+          .exit_valid_o(unused_exit_valid),
+          .exit_o(exit),
+          .empty_o(rows_empty)
+      );
+    end else begin : g_once
+      logic unused_exit_valid, unused_start;
+      assign rows = key_rows;
+      assign tested = info_q;
+      pipe_control #(
+          .LATENCY(LATENCY),
+          .OCCUPIES_BITS(4)
+      ) control (
+          .clk_i,
+          .rst_i,
+          .enter_i(enter),
+          .occupies_i(turns),
+          .ready_i(survivors_ready_i),
+          .can_enter_o(can_enter),
+          .start_o(unused_start),
+          .enable_o(enable),
+          .exit_valid_o(unused_exit_valid),
+          .exit_o(exit),
+          .empty_o(empty)
+      );
+    end
+  endgenerate
+
+  // The tests, and the answer's way through what is left of the pipeline.
+  logic [3:0] pass, tested_hits, survivors;
+  generate
+    for (genvar lane = 0; lane < 4; lane++) begin : g_test
+      mask_lane #(
+          .DESIGN(DESIGN),
+          .R(R),
+          .BIT_ROWS(BIT_ROWS),
+          .ROW_BITS(LANE_BITS),
+          .OBJECT_BITS(OBJECT_BITS)
+      ) test (
+          .row_i(rows[LANE_BITS*lane+:LANE_BITS]),
+          .object_i(objects[OBJECT_BITS*lane+:OBJECT_BITS]),
+          .pass_o(pass[lane])
+      );
+    end
+  endgenerate
+  assign tested_hits = tested[7:4];
+  assign survivors = tested_hits & (pass | ~tested[3:0]);
+
+  logic [SLOT_BITS-1:0] slot_out;
+  logic [3:0] hits_out, survivors_out;
+  pipe_row #(
+      .WIDTH(SLOT_BITS + 8),
+      .DEPTH(IS_DEDUP ? LATENCY + SECOND_LATENCY - 2 : LATENCY - 1)
+  ) row_answer (
+      .clk_i,
+      .enable_i(enable),
+      .data_i({tested_slot, tested_hits, survivors}),
+      .data_o({slot_out, hits_out, survivors_out})
+  );
+  assign survivors_push_o = exit;
+  assign survivors_data_o = {slot_out, hits_out, survivors_out, 12'd0};
+
+  always_comb begin
+    if (!enable) activity_o = `CTU_OUTPUT_FULL;
+    else if (!can_enter) activity_o = `CTU_BANK_CONFLICT;
+    else if (enter || !empty) activity_o = `CTU_BUSY;
+    else activity_o = `CTU_IDLE;
+  end
+endmodule

@@ -1,0 +1,48 @@
+# The mask test, a model for each structure.
+set(mask_test_sources ${rtl}/table_bank.sv ${rtl}/table_turns.sv ${rtl}/table_memory.sv ${rtl}/key_row.sv
+  ${rtl}/mask_lane.sv)
+set(mask_test_headers ${rtl}/mask_designs.svh ${rtl}/tokens.svh)
+set(mask_test_libraries "")
+# mask_test_model(Name PARAMETER=value ...)
+function(mask_test_model name)
+  list(TRANSFORM ARGN PREPEND -G OUTPUT_VARIABLE parameters)
+  ctu_verilate(rtl_mask_test_${name} PREFIX VMaskTest${name} TOP mask_test
+    SOURCES ${mask_test_headers} ${rtl_flow_sources} ${mask_test_sources} ${rtl}/mask_test.sv ARGS ${parameters})
+  target_compile_options(rtl_mask_test_${name} PRIVATE -O1)
+  list(APPEND mask_test_libraries rtl_mask_test_${name})
+  set(mask_test_libraries ${mask_test_libraries} PARENT_SCOPE)
+endfunction()
+
+mask_test_model(Projection DESIGN=5 R=4 R_RAY=4 BANKS=4 PORTS=1 LATENCY=2)
+mask_test_model(OneProjection DESIGN=5 R=4 R_RAY=6 PROJECTION_TABLES=1 BANKS=2 PORTS=3 LATENCY=4)
+mask_test_model(MaskLut DESIGN=2 R=4 R_RAY=4 BANKS=1 PORTS=1 LATENCY=1)
+mask_test_model(Comparators DESIGN=6 R=4 LATENCY=2)
+mask_test_model(Dedup DESIGN=4 R=4 R_RAY=4 DISTINCT=1270 BANKS=1 PORTS=2 LATENCY=1 SECOND_LATENCY=1)
+mask_test_model(BitTable DESIGN=3 R=4 R_RAY=4 ENTRIES=300 MASK_BYTES=1 BANKS=2 PORTS=1 LATENCY=2)
+mask_test_model(DedupCompressed DESIGN=4 R=3 R_RAY=5 ENTRIES=300 DISTINCT=2500 BANKS=2 PORTS=1 LATENCY=2 SECOND_LATENCY=3)
+mask_test_model(ProjectionCompressed DESIGN=5 R=6 R_RAY=6 ENTRIES=256 BANKS=8 PORTS=1 LATENCY=2)
+mask_test_model(ComparatorsCompressed DESIGN=6 R=4 ENTRIES=32 BANKS=1 PORTS=1 LATENCY=3)
+
+ctu_test(test_rtl_mask_test
+  SOURCES mask_test_test.cpp
+  DEPENDS ctu_pipeline_test_support ctu_oracle ${mask_test_libraries}
+  LABEL property)
+
+foreach(module IN ITEMS table_bank table_turns key_row mask_lane)
+  rtl_check(${module} SOURCES ${rtl}/${module}.sv)
+endforeach()
+rtl_check(table_memory SOURCES ${rtl}/table_bank.sv ${rtl}/table_turns.sv ${rtl}/table_memory.sv)
+set(mask_test_checked SOURCES ${rtl_flow_sources} ${mask_test_sources} ${rtl}/mask_test.sv)
+rtl_check(mask_test ${mask_test_checked})
+# Each structure once, with tables small enough to be synthesised as flip-flops.
+set(small R=2 R_RAY=2 DISTINCT=50)
+foreach(design IN ITEMS mask-lut=2 dedup=4 comparators=6)
+  string(REPLACE = ";" name_and_number ${design})
+  list(GET name_and_number 0 name)
+  list(GET name_and_number 1 number)
+  rtl_check(mask_test ${mask_test_checked} VARIANT ${name} PARAMETERS ${small} DESIGN=${number})
+  rtl_check(mask_test ${mask_test_checked} VARIANT ${name}.compressed PARAMETERS ${small} DESIGN=${number} ENTRIES=20)
+endforeach()
+rtl_check(mask_test ${mask_test_checked} VARIANT bit-table PARAMETERS ${small} DESIGN=3 ENTRIES=20)
+rtl_check(mask_test ${mask_test_checked} VARIANT projection.compressed PARAMETERS ${small} DESIGN=5 ENTRIES=20 BANKS=1 PORTS=3
+  PROJECTION_TABLES=1)

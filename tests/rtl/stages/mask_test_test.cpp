@@ -1,0 +1,109 @@
+// rtl/mask_test.sv against model/pipeline/mask_test.h: every handshake, survivor and account in every cycle, with
+// tables filled from the model's.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "VMaskTestBitTable.h"
+#include "VMaskTestComparators.h"
+#include "VMaskTestComparatorsCompressed.h"
+#include "VMaskTestDedup.h"
+#include "VMaskTestDedupCompressed.h"
+#include "VMaskTestMaskLut.h"
+#include "VMaskTestOneProjection.h"
+#include "VMaskTestProjection.h"
+#include "VMaskTestProjectionCompressed.h"
+#include "tests/oracle/seed.h"
+#include "tests/rtl/stages/mask_test_twin.h"
+
+namespace ctu::rtl {
+namespace {
+
+using cull::Design;
+
+/// The parameters of a model in mask_test.cmake, as the C++ side says them.
+struct Variant {
+  Design design;
+  cull::MaskOptions options{};
+  int banks = 4, ports = 1, latency = 2, second_latency = 1, projection_tables = 3;
+  cull::TableRows rows = cull::TableRows::All;
+  std::uint32_t distinct = 1270;
+  const char* scene = "gen:hair-ball?strands=60";
+
+  pipeline::UnitConfig config(const test::World& world) const {
+    pipeline::UnitConfig config = world.config();
+    config.mask_test.banks = banks;
+    config.mask_test.ports = ports;
+    config.mask_test.latency = latency;
+    config.mask_test.second_latency = second_latency;
+    config.mask_test.projection_tables = projection_tables;
+    config.mask_test.rows = rows;
+    config.cell_locate.units = config.comparators.units = 4;  // a node each cycle, so that nodes meet
+    return config;
+  }
+};
+
+/// Runs without refusals and with three kinds of them.
+template <class Model>
+void expect_equal(const Variant& variant, bool has_conflicts) {
+  SCOPED_TRACE(oracle::seed_note());
+  const test::World world(variant.scene, variant.design, 100, variant.options);
+  if (variant.design == Design::Dedup) {
+    ASSERT_LE(world.tester().dedup_table()->distinct(), variant.distinct);
+  }
+  for (const std::uint64_t stall_seed : {0, 1, 2, 3}) {
+    SCOPED_TRACE("stall seed " + std::to_string(stall_seed));
+    const auto seen = MaskTestTwin<Model>(world, variant.config(world), stall_seed).run();
+    ASSERT_FALSE(testing::Test::HasFailure());
+    EXPECT_GT(seen.asked, 200u);
+    EXPECT_GT(seen.nodes, seen.asked) << "every node had a question";
+    EXPECT_EQ(seen.conflicts > 0, has_conflicts);
+    EXPECT_EQ(seen.blocked > 0, stall_seed != 0);
+  }
+}
+
+TEST(RtlMaskTest, projection_tables_for_each_pair_of_axes) {
+  expect_equal<VMaskTestProjection>({.design = Design::Projection}, true);
+}
+TEST(RtlMaskTest, one_projection_table_read_three_times_a_lane) {
+  expect_equal<VMaskTestOneProjection>({.design = Design::Projection,
+                                        .options = {.ray_resolution = 6},
+                                        .banks = 2,
+                                        .ports = 3,
+                                        .latency = 4,
+                                        .projection_tables = 1},
+                                       true);
+}
+TEST(RtlMaskTest, ray_mask_table_in_one_bank) {
+  expect_equal<VMaskTestMaskLut>({.design = Design::MaskLut, .banks = 1, .latency = 1}, true);
+}
+TEST(RtlMaskTest, cells_from_comparators) {
+  expect_equal<VMaskTestComparators>({.design = Design::Comparators}, false);
+}
+TEST(RtlMaskTest, numbered_masks_read_one_memory_behind_the_other) {
+  expect_equal<VMaskTestDedup>({.design = Design::Dedup, .banks = 1, .ports = 2, .latency = 1}, true);
+}
+TEST(RtlMaskTest, numbered_bit_rows) {
+  expect_equal<VMaskTestDedupCompressed>({.design = Design::Dedup,
+                                          .options = {.resolution = 3, .ray_resolution = 5, .entries = 300},
+                                          .banks = 2,
+                                          .second_latency = 3,
+                                          .distinct = 2500,
+                                          .scene = "gen:hair-ball?strands=200"},
+                                         true);
+}
+TEST(RtlMaskTest, bit_table) {
+  expect_equal<VMaskTestBitTable>({.design = Design::BitTable, .options = {.entries = 64}, .banks = 2}, true);
+}
+TEST(RtlMaskTest, projections_over_compressed_masks) {
+  expect_equal<VMaskTestProjectionCompressed>(
+      {.design = Design::Projection, .options = {.resolution = 6, .ray_resolution = 6, .entries = 256}, .banks = 8},
+      true);
+}
+TEST(RtlMaskTest, comparators_over_compressed_masks) {
+  expect_equal<VMaskTestComparatorsCompressed>(
+      {.design = Design::Comparators, .options = {.entries = 32}, .banks = 1, .latency = 3}, true);
+}
+
+}  // namespace
+}  // namespace ctu::rtl
