@@ -1,5 +1,7 @@
 #include "model/pipeline/accounting.h"
 
+#include <numeric>
+
 namespace ctu::pipeline {
 namespace {
 
@@ -47,6 +49,12 @@ std::string_view name_of(Activity activity) { return kActivityTerms[static_cast<
 std::string_view description_of(Activity activity) { return kActivityTerms[static_cast<int>(activity)].description; }
 std::string_view name_of(Place place) { return kPlaceTerms[static_cast<int>(place)].name; }
 std::string_view description_of(Place place) { return kPlaceTerms[static_cast<int>(place)].description; }
+
+void Account::rest_idle(Cycle end) {
+  std::uint64_t& idle = cycles_[static_cast<int>(Activity::Idle)];
+  idle = 0;
+  idle = end - std::accumulate(cycles_.begin(), cycles_.end(), std::uint64_t{0});
+}
 
 StageAccount Account::close() const {
   StageAccount account;

@@ -47,6 +47,12 @@ class Account {
     --cycles_[static_cast<int>(current_)];
     set(activity);
   }
+  /// Some of the cycles so far, where a stage is not stepped and its times are known otherwise (rigid_chain.h).
+  void add(Activity activity, Cycle cycles) { cycles_[static_cast<int>(activity)] += cycles; }
+  /// Of `end` cycles, those that are not charged to anything else were idle.
+  void rest_idle(Cycle end);
+  /// What reports show as current.
+  void show(Activity activity) { current_ = activity; }
   /// `cycles` more in which nothing moves anywhere.
   void stand(Cycle cycles) { cycles_[static_cast<int>(current_)] += cycles; }
   Activity current() const { return current_; }

@@ -19,6 +19,7 @@ template <class Source, class Wiring>
 class BoxTest {
  public:
   static constexpr const char* kName = "box_test";
+  static constexpr Place kPlace = Place::BoxTest;
   typename Wiring::template In<RefToken> node;
   typename Wiring::template Out<NodeToken> tested;
 
@@ -27,13 +28,17 @@ class BoxTest {
 
   bool step(Cycle now) {
     return step_pipelined(now, node, tested, pipe_, account, [&](const RefToken& token) {
-      contexts_.move(token.slot, now, Place::BoxTest);
-      const std::uint8_t hits = source_.box_test(token.slot, token.ref);
-      pipe_.enter(now, {token.slot, hits, hits, 0, 0});
-      ++nodes_;
-      box_hits_ += static_cast<unsigned>(std::popcount(hits));
+      contexts_.move(token.slot, now, kPlace);
+      return take(token);
     });
   }
+  Entering<NodeToken> take(const RefToken& token) {
+    const std::uint8_t hits = source_.box_test(token.slot, token.ref);
+    ++nodes_;
+    box_hits_ += static_cast<unsigned>(std::popcount(hits));
+    return {{token.slot, hits, hits, 0, 0}};
+  }
+  Cycle latency() const { return pipe_.latency(); }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
   std::uint64_t nodes() const { return nodes_; }
   std::uint64_t box_hits() const { return box_hits_; }

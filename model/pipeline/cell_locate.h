@@ -23,27 +23,32 @@ template <class Source, class Wiring>
 class CellLocate {
  public:
   static constexpr const char* kName = "cell_locate";
+  static constexpr Place kPlace = Place::CellLocate;
   typename Wiring::template In<NodeToken> tested;
   typename Wiring::template Out<NodeToken> located;
 
   CellLocate(const UnitConfig& config, Contexts& contexts, Source& source)
-      : contexts_(contexts), source_(source), pipe_(latency(config)) {
+      : contexts_(contexts), source_(source), pipe_(latency_of(config)) {
     for (int lanes = 0; lanes <= intersect::kLanes; ++lanes)
       cycles_of_[lanes] = std::max(1, (lanes + units(config) - 1) / units(config));
   }
 
   bool step(Cycle now) {
     return step_pipelined(now, tested, located, pipe_, account, [&](const NodeToken& token) {
-      contexts_.move(token.slot, now, Place::CellLocate);
-      const std::uint8_t asked = source_.locate(token.slot, token.hits);
-      const int lanes = std::popcount(asked);
-      const int cycles = cycles_of_[lanes];
-      pipe_.enter(now, {token.slot, token.hits, token.hits, 0, asked}, static_cast<Cycle>(cycles));
-      lanes_ += static_cast<unsigned>(lanes);
-      lanes_unasked_ += static_cast<unsigned>(std::popcount(token.hits) - lanes);
-      occupied_ += static_cast<unsigned>(cycles);
+      contexts_.move(token.slot, now, kPlace);
+      return take(token);
     });
   }
+  Entering<NodeToken> take(const NodeToken& token) {
+    const std::uint8_t asked = source_.locate(token.slot, token.hits);
+    const int lanes = std::popcount(asked);
+    const int cycles = cycles_of_[lanes];
+    lanes_ += static_cast<unsigned>(lanes);
+    lanes_unasked_ += static_cast<unsigned>(std::popcount(token.hits) - lanes);
+    occupied_ += static_cast<unsigned>(cycles);
+    return {{token.slot, token.hits, token.hits, 0, asked}, static_cast<Cycle>(cycles)};
+  }
+  Cycle latency() const { return pipe_.latency(); }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
   std::uint64_t lanes() const { return lanes_; }
   /// Lanes hit that pass without a question.
@@ -58,7 +63,7 @@ class CellLocate {
   static int units(const UnitConfig& config) {
     return compares(config) ? config.comparators.units : config.cell_locate.units;
   }
-  static int latency(const UnitConfig& config) {
+  static int latency_of(const UnitConfig& config) {
     return compares(config) ? config.comparators.latency : config.cell_locate.latency;
   }
 

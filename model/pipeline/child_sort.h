@@ -17,6 +17,7 @@ template <class Source, class Wiring>
 class ChildSort {
  public:
   static constexpr const char* kName = "child_sort";
+  static constexpr Place kPlace = Place::ChildSort;
   typename Wiring::template In<NodeToken> survivors;
   typename Wiring::template Out<NodeToken> sorted;
 
@@ -25,10 +26,14 @@ class ChildSort {
 
   bool step(Cycle now) {
     return step_pipelined(now, survivors, sorted, pipe_, account, [&](const NodeToken& token) {
-      contexts_.move(token.slot, now, Place::ChildSort);
-      pipe_.enter(now, {token.slot, token.hits, token.survivors, source_.child_order(token.slot, token.survivors), 0});
+      contexts_.move(token.slot, now, kPlace);
+      return take(token);
     });
   }
+  Entering<NodeToken> take(const NodeToken& token) {
+    return {{token.slot, token.hits, token.survivors, source_.child_order(token.slot, token.survivors), 0}};
+  }
+  Cycle latency() const { return pipe_.latency(); }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
 
   Account account{kName, {Activity::OutputFull}};

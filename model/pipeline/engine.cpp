@@ -8,6 +8,7 @@
 #include "model/pipeline/connections.h"
 #include "model/pipeline/deadlock_report.h"
 #include "model/pipeline/exec_source.h"
+#include "model/pipeline/node_chain.h"
 #include "model/pipeline/parameter.h"
 #include "model/pipeline/replay_source.h"
 #include "model/pipeline/report.h"
@@ -19,7 +20,14 @@ namespace {
 /// Joins ports and lists the links.
 class PlainLinks {
  public:
-  explicit PlainLinks(const Backpressure& backpressure) : backpressure_(backpressure) {}
+  /// `row`: of the links within it and behind it, if there is one.
+  PlainLinks(const Backpressure& backpressure, const RigidChain* row) : backpressure_(backpressure), row_(row) {}
+
+  void join(const char* name, PlainWiring::Out<NodeToken>&, ChainExit&) {
+    const auto entries = [row = row_, stage = row_links_++] { return row->occupancy(stage); };
+    probes_.links.push_back(
+        {name, [entries](Cycle) { return entries() > 0; }, [entries](Cycle) { return entries() < 2; }, entries});
+  }
 
   template <class T>
   void join(const char* name, PlainWiring::Out<T>& out, PlainWiring::In<T>& in) {
@@ -43,8 +51,47 @@ class PlainLinks {
   }
 
   Backpressure backpressure_;
+  const RigidChain* row_;
+  int row_links_ = 0;
   Probes probes_;
 };
+
+/// What is stepped in a cycle: every stage,
+template <class Source, class Wiring>
+class Parts {
+ public:
+  Parts(UnitState<Source>&, Stages<Source, Wiring>& stages) : stages_(stages) {}
+  auto all() { return stages_.all(); }
+  RigidChain* row() { return nullptr; }
+
+ private:
+  Stages<Source, Wiring>& stages_;
+};
+
+/// or those of a node's way as one.
+template <class Source>
+class Parts<Source, ChainedWiring> {
+ public:
+  Parts(UnitState<Source>& state, Stages<Source, ChainedWiring>& stages) : stages_(stages), chain_(state, stages) {}
+  auto all() {
+    auto& s = stages_;
+    return std::tie(s.ray_queue, s.scheduler, s.node_fetch, chain_, s.traversal_stack, s.leaf_fetch, s.triangle_test,
+                    s.hit_update, s.result_queue, s.memory_port);
+  }
+  RigidChain* row() { return &chain_.row(); }
+
+ private:
+  Stages<Source, ChainedWiring>& stages_;
+  NodeChain<Source> chain_;
+};
+
+template <class Part>
+void stand(Part& stage, Cycle cycles) {
+  stage.account.stand(cycles);
+}
+/// Its accounts follow from when tokens came and went.
+template <class Source>
+void stand(NodeChain<Source>&, Cycle) {}
 
 template <class Source, class Wiring, bool kForward>
 class PlainEngine final : public Engine {
@@ -52,7 +99,8 @@ class PlainEngine final : public Engine {
   PlainEngine(const UnitConfig& config, const Work& work, const EngineOptions& options)
       : state_(config, work, options.keep_events),
         stages_(state_, work.rays),
-        links_(options.backpressure),
+        parts_(state_, stages_),
+        links_(options.backpressure, parts_.row()),
         skip_idle_(options.skip_idle && !options.backpressure.any()),
         watchdog_(static_cast<Cycle>(config.watchdog.cycles)),
         progress_(options.progress) {
@@ -91,7 +139,10 @@ class PlainEngine final : public Engine {
   Cycle now() const override { return now_; }
   int occupied_contexts() const override { return state_.contexts.occupied(); }
   const EventLog& log() const override { return state_.log; }
-  UnitResult result() override { return make_result(state_, stages_, now_); }
+  UnitResult result() override {
+    if (parts_.row() != nullptr) parts_.row()->close_accounts(now_);
+    return make_result(state_, stages_, now_);
+  }
 
  private:
   static constexpr std::uint64_t kProgressRays = 4096;
@@ -99,10 +150,10 @@ class PlainEngine final : public Engine {
   /// One cycle of every stage. Any order gives the same, as links judge by the state at the start of the cycle.
   bool step(Cycle now) {
     bool moved = false;
-    auto all = stages_.all();
+    auto all = parts_.all();
     constexpr std::size_t kCount = std::tuple_size_v<decltype(all)>;
     [&]<std::size_t... I>(std::index_sequence<I...>) {
-      (if_present(std::get<(kForward ? I : kCount - 1 - I)>(all), [&](auto& stage) { moved |= stage.step(now); }), ...);
+      (if_present(std::get<(kForward ? I : kCount - 1 - I)>(all), [&](auto& part) { moved |= part.step(now); }), ...);
     }
     (std::make_index_sequence<kCount>{});
     return moved;
@@ -110,22 +161,31 @@ class PlainEngine final : public Engine {
 
   /// Nothing moved: goes to the next cycle in which something can.
   void wait(Cycle until) {
-    if (now_ - last_moved_ >= watchdog_)
+    if (parts_.row() != nullptr && parts_.row()->next_event(now_) != kNever) last_moved_ = now_;
+    if (now_ - last_moved_ >= watchdog_) {
+      if (parts_.row() != nullptr) parts_.row()->show(now_);
       throw DeadlockFound(deadlock_report(now_, last_moved_, links_.probes(), state_.contexts));
+    }
     Cycle next = now_ + 1;
     if (skip_idle_) {
       next = kNever;
-      for_each_stage(stages_, [&](auto& stage) { next = earlier(next, stage.next_event(now_)); });
+      for_each_part([&](auto& part) { next = earlier(next, part.next_event(now_)); });
       next = std::max(next, now_ + 1);
       if (waves_ != nullptr && waves_->first() > now_) next = std::min(next, waves_->first());
     }
     next = std::min({next, until, last_moved_ + watchdog_});
-    if (next > now_ + 1) for_each_stage(stages_, [&](auto& stage) { stage.account.stand(next - now_ - 1); });
+    if (next > now_ + 1) for_each_part([&](auto& part) { stand(part, next - now_ - 1); });
     now_ = next;
+  }
+
+  template <class Visit>
+  void for_each_part(Visit&& visit) {
+    std::apply([&](auto&... part) { (if_present(part, visit), ...); }, parts_.all());
   }
 
   UnitState<Source> state_;
   Stages<Source, Wiring> stages_;
+  Parts<Source, Wiring> parts_;
   PlainLinks links_;
   bool skip_idle_;
   Cycle watchdog_, now_ = 0, last_moved_ = 0;
@@ -139,7 +199,9 @@ std::unique_ptr<Engine> make_with(const UnitConfig& config, const Work& work, co
   if (options.reverse_order) return std::make_unique<PlainEngine<Source, StallingWiring, false>>(config, work, options);
   if (options.backpressure.any())
     return std::make_unique<PlainEngine<Source, StallingWiring, true>>(config, work, options);
-  return std::make_unique<PlainEngine<Source, PlainWiring, true>>(config, work, options);
+  if (config.table_cache.bytes > 0 || !options.waves_path.empty())  // waves show what stages are in every cycle
+    return std::make_unique<PlainEngine<Source, PlainWiring, true>>(config, work, options);
+  return std::make_unique<PlainEngine<Source, ChainedWiring, true>>(config, work, options);
 }
 
 }  // namespace

@@ -26,27 +26,32 @@ template <class Source, class Wiring>
 class MaskTest {
  public:
   static constexpr const char* kName = "mask_test";
+  static constexpr Place kPlace = Place::MaskTest;
   typename Wiring::template In<NodeToken> located;
   typename Wiring::template Out<NodeToken> survivors;
 
   MaskTest(const UnitConfig& config, const cull::OnChipTables& tables, Contexts& contexts, Source& source)
-      : contexts_(contexts), source_(source), tables_(config, tables), pipe_(latency(config)) {}
+      : contexts_(contexts), source_(source), tables_(config, tables), pipe_(latency_of(config)) {}
 
   bool step(Cycle now) {
     bool entered = false;
     const bool moved = step_pipelined(now, located, survivors, pipe_, account, [&](const NodeToken& token) {
       entered = true;
-      contexts_.move(token.slot, now, Place::MaskTest);
-      const int cycles = tables_.read(source_.keys(token), contexts_[token.slot]);
-      const MaskAnswer answer = source_.mask_test(token);
-      pipe_.enter(now, {token.slot, token.hits, answer.survivors, 0, 0}, static_cast<Cycle>(cycles));
-      culled_ += static_cast<unsigned>(std::popcount(static_cast<unsigned>(token.hits & ~answer.survivors)));
-      uncertain_ += static_cast<unsigned>(std::popcount(answer.uncertain));
+      contexts_.move(token.slot, now, kPlace);
+      return take(token);
     });
     const bool conflict = !entered && !pipe_.can_enter(now);
     if (conflict && account.current() == Activity::Busy) account.correct(Activity::BankConflict);
     return moved;
   }
+  Entering<NodeToken> take(const NodeToken& token) {
+    const int cycles = tables_.read(source_.keys(token), contexts_[token.slot]);
+    const MaskAnswer answer = source_.mask_test(token);
+    culled_ += static_cast<unsigned>(std::popcount(static_cast<unsigned>(token.hits & ~answer.survivors)));
+    uncertain_ += static_cast<unsigned>(std::popcount(answer.uncertain));
+    return {{token.slot, token.hits, answer.survivors, 0, 0}, static_cast<Cycle>(cycles)};
+  }
+  Cycle latency() const { return pipe_.latency(); }
   Cycle next_event(Cycle now) const { return pipe_.next_event(now); }
   std::uint64_t culled() const { return culled_; }
   std::uint64_t uncertain() const { return uncertain_; }
@@ -55,7 +60,7 @@ class MaskTest {
   Account account{kName, {Activity::OutputFull, Activity::BankConflict}};
 
  private:
-  static int latency(const UnitConfig& config) {
+  static int latency_of(const UnitConfig& config) {
     const bool two_reads = reads_twice(config.mask_test.design) && config.table_cache.bytes == 0;
     return config.mask_test.latency + (two_reads ? config.mask_test.second_latency : 0);
   }

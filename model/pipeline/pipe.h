@@ -19,6 +19,7 @@ class Pipe {
     mask_ = static_cast<std::uint32_t>(places - 1);
   }
 
+  Cycle latency() const { return latency_; }
   bool empty() const { return head_ == tail_; }
   /// A token stands in the last register.
   bool exit_ready(Cycle now) const { return head_due_ <= now - frozen_total_; }

@@ -7,7 +7,14 @@
 
 namespace ctu::pipeline {
 
-/// `take(pipe, token)` enters what the token becomes. Whether anything moved.
+/// What a token becomes when a stage takes it, and for how many cycles it keeps the entrance.
+template <class T>
+struct Entering {
+  T token;
+  Cycle occupies = 1;
+};
+
+/// `take(token)` gives the Entering<T>. Whether anything moved.
 template <class In, class Out, class T, class Take>
 bool step_pipelined(Cycle now, In& in, Out& out, Pipe<T>& pipe, Account& account, Take&& take) {
   bool moved = false;
@@ -21,7 +28,8 @@ bool step_pipelined(Cycle now, In& in, Out& out, Pipe<T>& pipe, Account& account
     moved = true;
   }
   if (in.can_pop(now) && pipe.can_enter(now)) {
-    take(in.front());
+    const Entering<T> entering = take(in.front());
+    pipe.enter(now, entering.token, entering.occupies);
     in.pop(now);
     moved = true;
   }
