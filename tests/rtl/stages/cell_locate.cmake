@@ -1,0 +1,28 @@
+set(plane_times_sources ${rtl_float_sources} ${rtl}/float/float_fraction.sv ${rtl}/float/float_key.sv ${rtl}/plane_times.sv)
+set(locate_lane_sources ${plane_times_sources} ${rtl}/cell_locate_axis.sv ${rtl}/cell_locate_lane.sv)
+set(comparator_lane_sources ${plane_times_sources} ${rtl}/comparator_axis.sv ${rtl}/comparator_lane.sv)
+set(cell_locate_sources ${rtl}/tokens.svh ${rtl}/pipe_control.sv ${locate_lane_sources} ${rtl}/comparator_axis.sv
+  ${rtl}/comparator_lane.sv ${rtl}/cell_locate.sv)
+
+ctu_verilate(rtl_cell_locate_1 PREFIX VCellLocate1 TOP cell_locate SOURCES ${keep_modules} ${cell_locate_sources})
+ctu_verilate(rtl_cell_locate_2 PREFIX VCellLocate2 TOP cell_locate SOURCES ${keep_modules} ${cell_locate_sources}
+  ARGS -GR_RAY=6 -GUNITS=2 -GLATENCY=1)
+ctu_verilate(rtl_cell_locate_4 PREFIX VCellLocate4 TOP cell_locate SOURCES ${keep_modules} ${cell_locate_sources}
+  ARGS -GR_RAY=5 -GUNITS=4 -GLATENCY=23)
+ctu_verilate(rtl_cell_locate_masks_2 PREFIX VCellLocateMasks2 TOP cell_locate
+  SOURCES ${keep_modules} ${cell_locate_sources} ARGS -GCOMPARATORS=1 -GR=3 -GUNITS=2 -GLATENCY=3)
+ctu_verilate(rtl_cell_locate_masks_3 PREFIX VCellLocateMasks3 TOP cell_locate
+  SOURCES ${keep_modules} ${cell_locate_sources} ARGS -GCOMPARATORS=1 -GUNITS=3 -GLATENCY=12)
+rtl_mutants(cell_locate_mutants TOP cell_locate NAMES CellLocateFullLanesAsked CellLocateEntranceAlwaysFree
+  SOURCES ${keep_modules} ${cell_locate_sources})
+ctu_test(test_rtl_cell_locate
+  SOURCES cell_locate_test.cpp
+  DEPENDS ctu_pipeline_test_support rtl_cell_locate_1 rtl_cell_locate_2 rtl_cell_locate_4 rtl_cell_locate_masks_2
+    rtl_cell_locate_masks_3 ${cell_locate_mutants}
+  LABEL property)
+
+# What these are made of is checked within them.
+rtl_check(float_fraction SOURCES ${rtl_float_sources} ${rtl}/float/float_fraction.sv)
+rtl_check(float_key SOURCES ${rtl}/float/float_key.sv)
+rtl_check(comparator_lane SOURCES ${comparator_lane_sources})
+rtl_check(cell_locate SOURCES ${cell_locate_sources})
