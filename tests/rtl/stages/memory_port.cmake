@@ -1,0 +1,1 @@
+rtl_check(memory_port SOURCES ${rtl}/memory_port.sv)
