@@ -84,7 +84,7 @@ class QueueTwin {
  private:
   std::ostringstream difference_;
   VerilatedContext context_;
-  Model model_{&context_};
+  Model model_{from_noise(context_)};
 };
 
 /// Ends at the first difference, which it returns.

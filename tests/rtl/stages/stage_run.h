@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/pipeline/tapped_unit.h"
+#include "tests/oracle/seed.h"
 #include "tests/pipeline/world.h"
 
 namespace ctu::rtl {
@@ -80,6 +81,13 @@ class Difference {
   std::string text_;
   std::uint64_t compared_ = 0;
 };
+
+/// For models verilated with --x-initial unique: registers hold noise until reset or first written.
+inline VerilatedContext* from_noise(VerilatedContext& context) {
+  context.randReset(2);
+  context.randSeed(static_cast<int>(oracle::test_seed() % 0x7fffffffu) + 1);
+  return &context;
+}
 
 /// Raises the clock once, after the inputs of a cycle have been looked at.
 template <class Model>

@@ -160,7 +160,7 @@ class StackTwin {
   std::ostringstream difference_;
   std::uint64_t refills_ = 0;
   VerilatedContext context_;
-  Model model_{&context_};
+  Model model_{from_noise(context_)};
 };
 
 using Wide = StackTwin<VTraversalStackWide, 128>;
