@@ -8,14 +8,14 @@ ctu_verilate(rtl_triangle_intersect PREFIX VTriangleIntersect TOP triangle_inter
 set(triangle_libraries rtl_triangle_intersect)
 foreach(latency IN ITEMS 1 13 45)
   ctu_verilate(rtl_triangle_test_${latency} PREFIX VTriangleTest${latency} TOP triangle_test
-    SOURCES ${triangle_test_sources} ARGS -GLATENCY=${latency})
+    SOURCES ${triangle_test_sources} ARGS --x-initial unique -GLATENCY=${latency})
   target_compile_options(rtl_triangle_test_${latency} PRIVATE -O1)
   list(APPEND triangle_libraries rtl_triangle_test_${latency})
 endforeach()
 rtl_mutants(triangle_intersect_mutants TOP triangle_intersect NAMES EdgeSignOfZero EdgeOnHit TriangleRangeOpen
   SOURCES ${triangle_intersect_sources} ARGS -GLATENCY=1)
 rtl_mutants(triangle_test_mutants TOP triangle_test NAMES BestAfterInterval TriangleLastEarly
-  SOURCES ${triangle_test_sources} ARGS -GLATENCY=1)
+  SOURCES ${triangle_test_sources} ARGS --x-initial unique -GLATENCY=1)
 ctu_test(test_rtl_triangle_test
   SOURCES triangle_intersect_test.cpp triangle_test_test.cpp
   DEPENDS ctu_pipeline_test_support ${triangle_libraries} ${triangle_intersect_mutants} ${triangle_test_mutants}
