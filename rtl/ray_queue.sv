@@ -1,5 +1,5 @@
-// ray_queue: gives each ray of the feed, in order, a free context, and sets up its registers (reciprocal bounds, shear, the
-// root). A ray that the unit does not accept goes straight to the result as a miss.
+// ray_queue: gives each ray of the feed, in order, a free context, and sets up its registers (reciprocal bounds, shear,
+// the root). A ray that the unit does not accept goes straight to the result as a miss.
 //
 //   in   freed         contexts that result_queue has emptied
 //   out  to_scheduler  the root, for each ray
@@ -8,12 +8,13 @@
 //   twin    model/pipeline/ray_queue.h; intersect::prepare_ray, is_valid (model/intersect/ray.h)
 //
 // The host holds the next ray with ray_valid_i until ray_take_o. In that cycle its context's registers are written at
-// ray_slot_o: of the ray, what the host gives and the signs and axes of its direction (ray_*_o); of the best hit, t = tmax,
-// u = v = 0, no primitive. The quotients are written when the ray leaves for the scheduler (setup_*_o).
+// ray_slot_o: of the ray, what the host gives and the signs and axes of its direction (ray_*_o); of the best hit,
+// t = tmax, u = v = 0, no primitive. The quotients are written when the ray leaves for the scheduler (setup_*_o).
 //
-// Arithmetic: 1 / d of each axis rounded down and up, +0 where d is zero; d[kx] / d[kz] and d[ky] / d[kz] to nearest. These
-// five divisions are given to as many dividers as MIN_INTERVAL needs, in the last cycles that the ray keeps the entrance;
-// what is divided in an earlier one waits behind the divider, so that all quotients of a ray stand there as it leaves.
+// Arithmetic: 1 / d of each axis rounded down and up, +0 where d is zero; d[kx] / d[kz] and d[ky] / d[kz] to nearest.
+// These five divisions are given to as many dividers as MIN_INTERVAL needs, in the last cycles that the ray keeps the
+// entrance; what is divided in an earlier one waits behind the divider, so that all quotients of a ray stand there as
+// it leaves.
 `include "tokens.svh"
 
 module ray_queue #(

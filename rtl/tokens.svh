@@ -5,8 +5,8 @@
 //   node      {slot, hits[3:0], survivors[3:0], order[7:0], asked[3:0]}    order: lane of place p at [2p+1:2p]
 //   tested    {slot, index[3:0], last, hit, t, u, v, primitive}            t, u, v are 0 where hit is 0
 //   leaf done {slot, finished}
-//   request   {address, id[7:0], write, data}                              data: a line, of writes, in which the batch of
-//                                                                          stack entries at the address counts; else left out
+//   request   {address, id[7:0], write, data}                              data: a line, of writes; else left out
+//                                                                          (what counts of it: the batch at address)
 //   response  {id[7:0], data}                                              data: the line; id of the request
 //
 // SLOT_BITS and ADDRESS_BITS are parameters of the modules. Lanes and axes lie with the first one in the lowest bits.

@@ -6,16 +6,16 @@
 //   out  to_scheduler  rays with their next reference
 //   out  to_result     rays whose stack is empty, or that are finished
 //   out  spills        writes of the oldest entries, reads of the youngest spilled ones
-//   latency a token taken in cycle t is worked on from t + 1: pushes push_width_i a cycle and ends with the one that goes
-//           to the scheduler, or pops an entry a cycle; the next token is taken in the last cycle of the one before
+//   latency a token taken in cycle t is worked on from t + 1: pushes push_width_i entries a cycle, in the last one the
+//           ray goes on to the scheduler, or pops an entry a cycle; in its last cycle the next token is taken
 //   twin    model/pipeline/traversal_stack.h; the order of t0 and best hit as ExecSource::drops
 //
-// On chip a context has a ring of MAX_ENTRIES places, one or several rows of as many banks as a line holds entries: entry p
-// lies at place p mod MAX_ENTRIES, in memory at byte 8 p of the context's region: reference, then t0. A request's address
-// is that of its batch's first entry; the line of a write holds the batch at its place, and memory takes the
-// 8 * spill_batch_i bytes from the address on and leaves the others as they are. A read gets the whole line. As all sizes
-// are powers of two no batch crosses a line or a row, and entries keep their place between line and row, so nothing is
-// shifted, and a cycle reads one row: for the top, or for the batch that is written.
+// On chip a context has a ring of MAX_ENTRIES places, one or several rows of as many banks as a line holds entries:
+// entry p lies at place p mod MAX_ENTRIES, in memory at byte 8 p of the context's region: reference, then t0. A
+// request's address is that of its batch's first entry; the line of a write holds the batch at its place, and memory
+// takes the 8 * spill_batch_i bytes from the address on and leaves the others as they are. A read gets the whole line.
+// As all sizes are powers of two no batch crosses a line or a row, and entries keep their place between line and row,
+// so nothing is shifted, and a cycle reads one row: for the top, or for the batch that is written.
 //
 // A context begins empty, and is left empty when its ray goes to the result, so nobody needs to clear it. Without
 // HAS_SPILLS no ray may ever hold more than entries_i, and the three memory ports are dead.
@@ -24,7 +24,7 @@
 module traversal_stack #(
     parameter int SLOT_BITS = 2,
     parameter int MAX_ENTRIES = 16,  // of a context on chip; a power of two from 4 to 64
-    parameter int DEPTH_BITS = 8,    // a ray's entries are fewer than 1 << DEPTH_BITS, spilled ones included; at least 7
+    parameter int DEPTH_BITS = 8,    // fewer than 1 << DEPTH_BITS entries of a ray, spilled ones included; at least 7
     parameter int ADDRESS_BITS = 32,
     parameter int LINE_BYTES = 128,
     parameter bit HAS_SPILLS = 1'b1
@@ -195,7 +195,7 @@ module traversal_stack #(
   assign visit_valid_o = sorted_pop_o;
   assign visit_slot_o = sorted_slot;
 
-  // How many entries each context holds, while another one is served. No ray comes back in the cycle in which it leaves.
+  // Entries of each context while another one is served. No ray comes back in the cycle in which it leaves.
   logic [DEPTH_BITS-1:0] depths_q[SLOTS], spilleds_q[SLOTS];
   logic [SLOTS-1:0] occupied_q;
   wire [DEPTH_BITS-1:0] next_depth = occupied_q[next_slot] ? depths_q[next_slot] : '0;
@@ -231,7 +231,7 @@ module traversal_stack #(
     if (takes) begin
       slot_q <= next_slot;
       order_q <= sorted_data_i[11:4];
-      to_push_q <= {1'b0, survivors[0]} + {1'b0, survivors[1]} + {1'b0, survivors[2]} + {1'b0, survivors[3]} - 2'd1;
+      to_push_q <= 2'(survivors[0]) + 2'(survivors[1]) + 2'(survivors[2]) + 2'(survivors[3]) - 2'd1;
       depth_q <= next_depth;
       spilled_q <= refills_pop_o ? refill_first : next_spilled;
     end else begin
