@@ -5,9 +5,9 @@
 //   latency LATENCY + interval_i - 1, from 1; a triangle each interval_i cycles
 //   twin    model/pipeline/triangle_test.h; arithmetic: triangle_intersect.sv
 //
-// Reads of the context: the best t in the cycle in which a triangle takes the entrance, ray and triangle in the last one
-// in which it keeps it; both are the same cycle where interval_i is 1. Neither changes while the leaf is tested, but the
-// best t does, so that is what the entrance holds.
+// Reads of the context: the best t in the cycle in which a triangle takes the entrance, ray and triangle in the last
+// one in which it keeps it; both are the same cycle where interval_i is 1. Ray and triangle stay while the leaf is
+// tested, the best t does not, so that is what the entrance holds.
 `include "tokens.svh"
 
 module triangle_test #(

@@ -1,7 +1,7 @@
 // align_add: the sum or difference of two magnitudes of which the smaller one must first move down; combinational.
-// It moves into place with two bits more, what falls off kept as one sticky bit below these. Bits fall off only where the
-// larger magnitude has its highest bit set; the sum has its highest one in its first three places then, so two bits and
-// the sticky one suffice to round it to WIDTH bits or fewer.
+// It moves into place with two bits more, what falls off kept as one sticky bit below these. Bits fall off only where
+// the larger magnitude has its highest bit set; the sum has its highest one in its first three places then, so two bits
+// and the sticky one suffice to round it to WIDTH bits or fewer.
 module align_add #(
     parameter int WIDTH = 24,
     parameter int DISTANCE_BITS = 8

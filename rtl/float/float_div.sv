@@ -5,8 +5,8 @@
 //   twin    ctu::numeric::div (model/numeric/round.h)
 //
 // Arithmetic: subnormals as any number; 0 / 0, infinity / infinity and NaN operands give 0x7fc00000; a number / 0 is
-// infinite; signs as IEEE 754; overflow as float_round says. Normalises the operands; all steps and registers are those of
-// float_quotient.
+// infinite; signs as IEEE 754; overflow as float_round says. Normalises the operands; all steps and registers are those
+// of float_quotient.
 module float_div #(
     parameter int LATENCY = 16
 ) (

@@ -1,13 +1,13 @@
-// float_quotient: the quotient of two significands as binary32, exactly rounded in one direction or in all three at once:
-// the part that every divider shares.
+// float_quotient: the quotient of two significands as binary32, exactly rounded in one direction or in all three at
+// once: the part that every divider shares.
 //
 //   latency LATENCY (0: combinational), initiation interval 1; enable_i stops all registers
 //   twin    the division in model/numeric/round.h
 //
-// Arithmetic: a_i and b_i have their highest bit set unless zero_i, infinite_i or nan_i says what the quotient is; it is
-// a_i / b_i * 2^(exponent_i - 127), subnormal or overflowing as float_round says. Steps: order, 25 digits by restoring
-// division, shift of subnormal quotients, round; the LATENCY registers are spread over the places behind each of them,
-// the last place first.
+// Arithmetic: a_i and b_i have their highest bit set unless zero_i, infinite_i or nan_i says what the quotient is; it
+// is a_i / b_i * 2^(exponent_i - 127), subnormal or overflowing as float_round says. Steps: order, 25 digits by
+// restoring division, shift of subnormal quotients, round; the LATENCY registers are spread over the places behind each
+// of them, the last place first.
 module float_quotient #(
     parameter int LATENCY = 16,
     parameter bit DIRECTED = 1'b1  // 0: nearest_o alone, the others are zero

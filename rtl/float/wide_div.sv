@@ -3,8 +3,8 @@
 //   latency LATENCY (0: combinational), initiation interval 1; enable_i stops all registers
 //   twin    quotient(a, b) of model/intersect/triangle_test.cpp
 //
-// Arithmetic: subnormals and overflow to infinity as float_round says; every quotient that is zero, or too small for the
-// smallest subnormal, is +0. b is not zero (if it is, the result says nothing). All steps and registers are those of
+// Arithmetic: subnormals and overflow to infinity as float_round says; every quotient that is zero, or too small for
+// the smallest subnormal, is +0. b is not zero (if it is, the result says nothing). All steps and registers are those of
 // float_quotient.
 `include "wide_format.svh"
 

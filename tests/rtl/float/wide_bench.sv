@@ -1,5 +1,5 @@
-// The wide units for each latency from 0 to LONGEST on the same operands, the divider for each multiple of DIVIDE_STEP up
-// to DIVIDE_STEP * LONGEST; and the difference of two binary32 numbers as the triangle test begins with it.
+// The wide units for each latency from 0 to LONGEST on the same operands, the divider for each multiple of DIVIDE_STEP
+// up to DIVIDE_STEP * LONGEST; and the difference of two binary32 numbers as the triangle test begins with it.
 `include "wide_format.svh"
 
 module wide_bench #(

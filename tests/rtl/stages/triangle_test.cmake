@@ -1,5 +1,5 @@
-# The triangle test: its arithmetic at the shortest latency on hostile triangles, the stage at three latencies beside the
-# model, and both broken.
+# The triangle test: its arithmetic at the shortest latency on hostile triangles, the stage at three latencies beside
+# the model, and both broken.
 set(triangle_intersect_sources ${keep_modules} ${rtl_float_sources} ${rtl}/triangle_intersect.sv)
 set(triangle_test_sources ${rtl}/tokens.svh ${triangle_intersect_sources} ${rtl}/pipe_control.sv
   ${rtl}/triangle_test.sv)
