@@ -14,6 +14,19 @@ void add_index_option(CLI::App& app, SceneArgs& args) {
                  "file with a line NAME PATH for each scene; SCENE may be such a NAME, no SCENE means all");
 }
 
+void add_model_options(CLI::App& app, SceneArgs& args) {
+  app.add_option("--thickness", args.strand_thickness,
+                 "width of strands, ribbons or tubes, in scene units; 0: from the file");
+  app.add_option("--sides", args.strand_sides, "sides of a strand: 2 for a ribbon, 3 to 16 for a tube")
+      ->capture_default_str();
+  app.add_option("--without", args.without,
+                 "leave out the files of these names that the scene names, without folders, * for any letters: "
+                 "--without 'leaf_*,stem.ply'")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
+}
+
 void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
   auto* scene = app.add_option("scene", args.scenes,
                                "scene file (.obj .ply .gltf .glb .pbrt .scn .hair .tfx .nff .list, each also .zst) or "
@@ -23,7 +36,7 @@ void add_scene_options(CLI::App& app, SceneArgs& args, bool several) {
     add_index_option(app, args);
   else
     scene->required();
-  app.add_option("--thickness", args.strand_thickness, "ribbon width of strands in scene units; 0: from the file");
+  add_model_options(app, args);
   app.add_option("--eye", args.eye, "camera position x,y,z; otherwise the scene's own, or one that sees all of it");
   app.add_option("--target", args.target, "what the camera looks at, x,y,z");
   app.add_option("--up", args.up, "direction that is up in the picture, x,y,z");
@@ -202,6 +215,7 @@ void add_paper(CLI::App& app, Parsed& parsed) {
       ->capture_default_str();
   subspace->add_option("--seed", scene.seed, "seed of every random number")->capture_default_str();
   subspace->add_option("--turn", scene.turn, "degrees X,Y,Z by which scene and camera are turned about the axes");
+  add_model_options(*subspace, scene);
   subspace->add_option("--leaf", scene.leaf_triangles, "triangles in a leaf, at most")->capture_default_str();
   subspace->add_option("--threads", scene.threads, "0: one for each core")->capture_default_str();
   subspace->callback([&] { parsed.exit_code = paper_subspace_command(args); });

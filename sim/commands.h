@@ -14,10 +14,12 @@ struct SceneArgs {
   std::vector<std::string> scenes;
   std::string index;  ///< file that names scenes, for commands that take several
   double strand_thickness = 0;
-  std::string eye, target, up;   ///< "x,y,z"; empty: as the scene says
-  double vertical_fov = 0;       ///< degrees; 0: as the scene says
-  std::string turn;              ///< "x,y,z" degrees about the axes, scene and camera together
-  std::string rays = "diffuse";  ///< `culling` also takes "all"
+  int strand_sides = 2;              ///< 2: ribbons
+  std::vector<std::string> without;  ///< files that the scene names and that are left out; * stands for any letters
+  std::string eye, target, up;       ///< "x,y,z"; empty: as the scene says
+  double vertical_fov = 0;           ///< degrees; 0: as the scene says
+  std::string turn;                  ///< "x,y,z" degrees about the axes, scene and camera together
+  std::string rays = "diffuse";      ///< `culling` also takes "all"
   std::string size = "256x256";
   std::uint32_t spp = 1;
   std::uint32_t bounces = 4;

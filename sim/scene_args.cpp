@@ -164,6 +164,11 @@ scene::Scene load_scene(const SceneArgs& args, const std::string& name) {
     throw Error("--thickness", fmt::format("{} is no width", args.strand_thickness), "give scene units, 0 or more");
   scene::LoadOptions options;
   options.strand_thickness = static_cast<float>(args.strand_thickness);
+  if (args.strand_sides < 2 || args.strand_sides > scene::kMostStrandSides)
+    throw Error("--sides", fmt::format("{} is out of range", args.strand_sides),
+                fmt::format("give 2 for ribbons, or 3 to {} for tubes", scene::kMostStrandSides));
+  options.strand_sides = args.strand_sides;
+  options.without = args.without;
   scene::Scene scene = scene::load(name, options);
   place_camera(args, scene.camera);
   if (!args.turn.empty()) {

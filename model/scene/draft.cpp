@@ -1,9 +1,11 @@
 #include "model/scene/draft.h"
 
 #include <fmt/core.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "model/base/error.h"
@@ -45,6 +47,17 @@ template <class Item>
 void grow(std::vector<Item>& items, std::uint64_t more) {
   const std::uint64_t needed = items.size() + more;
   if (needed > items.capacity()) items.reserve(std::max<std::uint64_t>(needed, 2 * items.capacity()));
+}
+
+void report_left_out(Draft& draft, const std::string& where) {
+  draft.left_out.resize(draft.options.without.size());
+  for (std::size_t i = 0; i < draft.left_out.size(); ++i) {
+    const std::string& pattern = draft.options.without[i];
+    if (draft.left_out[i] == 0)
+      throw Error(where, fmt::format("names no file '{}' that could be left out", pattern),
+                  "give the name of a file that the scene names, without its folder; * stands for any letters");
+    draft.warn(fmt::format("'{}' was left out", pattern), draft.left_out[i]);
+  }
 }
 
 void measure(Scene& scene) {
@@ -91,7 +104,19 @@ void Draft::require_room(const Place& where, std::uint64_t more_vertices, std::u
   grow(mesh.triangles, more_triangles);
 }
 
+bool Draft::leaves_out(const std::string& file) {
+  left_out.resize(options.without.size());
+  const std::string name = std::filesystem::path(file).filename().string();
+  for (std::size_t i = 0; i < left_out.size(); ++i)
+    if (fnmatch(options.without[i].c_str(), name.c_str(), 0) == 0) {
+      ++left_out[i];
+      return true;
+    }
+  return false;
+}
+
 Scene finish(Draft&& draft, const std::string& name, const std::string& where) {
+  report_left_out(draft, where);
   check_mesh(draft.mesh, where);
   Scene scene;
   scene.name = name;

@@ -31,7 +31,11 @@ struct Draft {
   /// get too large.
   void require_room(const Place& where, std::uint64_t vertices, std::uint64_t triangles);
 
+  /// Whether options.without says so for a file that the scene names; counts it.
+  bool leaves_out(const std::string& file);
+
   std::vector<std::pair<std::string, std::uint64_t>> warnings;
+  std::vector<std::uint64_t> left_out;  ///< files, for each pattern of options.without; empty: none so far
 };
 
 /// Checks what no reader may get wrong (at least one triangle, indices in range, vertices finite), counts triangles

@@ -53,11 +53,11 @@ void hair_ball(Parameters& p, const std::string& where, Draft& draft) {
   const double radius = p.real("radius", 1, 0, kLargest), length = p.real("length", 1, 0, kLargest);
   const double spread = p.real("spread", 0.15, 0, 10);
   p.expect_all_used();
-  draft.require_room(where, 2 * s.strands * (s.segments + 1), 2 * s.strands * s.segments);
+  require_room_for_strands(where, s.strands, s.strands * (s.segments + 1), draft);
   for (std::uint64_t n = 0; n < s.strands; ++n) {
     Random random(s.seed, n);
     const Vector64 outward = random.direction();
-    append_ribbon(bent_strand(outward * radius, outward, random.in_ball() * spread, length, s), n, where, draft);
+    append_strand(bent_strand(outward * radius, outward, random.in_ball() * spread, length, s), n, where, draft);
   }
 }
 
@@ -66,7 +66,7 @@ void curly_hair(Parameters& p, const std::string& where, Draft& draft) {
   const double radius = p.real("radius", 1, 0, kLargest), length = p.real("length", 1, 0, kLargest);
   const double curls = p.real("curls", 4, 0, 1000), curl_radius = p.real("curl-radius", 0.05, 0, kLargest);
   p.expect_all_used();
-  draft.require_room(where, 2 * s.strands * (s.segments + 1), 2 * s.strands * s.segments);
+  require_room_for_strands(where, s.strands, s.strands * (s.segments + 1), draft);
   for (std::uint64_t n = 0; n < s.strands; ++n) {
     Random random(s.seed, n);
     const Vector64 outward = random.direction();
@@ -80,7 +80,7 @@ void curly_hair(Parameters& p, const std::string& where, Draft& draft) {
       points.push_back(
           {outward * (radius + length * t) + u * (wide * angle.cosine) + v * (wide * angle.sine), s.width});
     }
-    append_ribbon(points, n, where, draft);
+    append_strand(points, n, where, draft);
   }
 }
 
@@ -89,7 +89,7 @@ void straight_hair(Parameters& p, const std::string& where, Draft& draft) {
   const double length = p.real("length", 2, 0, kLargest), tilt = p.real("tilt", 35, -360, 360);
   const double spread = p.real("spread", 0.05, 0, 10);
   p.expect_all_used();
-  draft.require_room(where, 2 * s.strands * (s.segments + 1), 2 * s.strands * s.segments);
+  require_room_for_strands(where, s.strands, s.strands * (s.segments + 1), draft);
   const Turn lean = turn(tilt / 360);
   // Leans toward (0.8, 0.6) of the ground, along no axis.
   const Vector64 along{0.8 * lean.sine, 0.6 * lean.sine, lean.cosine};
@@ -97,7 +97,7 @@ void straight_hair(Parameters& p, const std::string& where, Draft& draft) {
     Random random(s.seed, n);
     const Vector64 root{random.between(-1, 1), random.between(-1, 1), 0};
     const Vector64 own = normalized(along + random.in_ball() * spread, along);
-    append_ribbon(bent_strand(root, own, random.in_ball() * (0.5 * spread), length, s), n, where, draft);
+    append_strand(bent_strand(root, own, random.in_ball() * (0.5 * spread), length, s), n, where, draft);
   }
 }
 

@@ -2,6 +2,7 @@
 // (cemyuksel.com/research/hairmodels).
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -77,7 +78,7 @@ void read_hair(const SourceFile& file, Draft& draft) {
   const HairArrays arrays = place_arrays(file, header);
   ByteCursor segments(file, false, arrays.segments), points(file, false, arrays.points);
   ByteCursor thickness(file, false, arrays.thickness);
-  draft.require_room(file.path, 2 * std::uint64_t{header.points}, 2 * std::uint64_t{header.points});
+  require_room_for_strands(file.path, std::min(header.strands, header.points), header.points, draft);
 
   std::uint64_t points_left = header.points;
   std::vector<StrandPoint> strand;
@@ -100,7 +101,7 @@ void read_hair(const SourceFile& file, Draft& draft) {
         throw Error(fmt::format("{} (strand {})", points.where(), n), "a coordinate is NaN or infinite", kDamaged);
       strand.push_back(p);
     }
-    append_ribbon(strand, n, file.path, draft);
+    append_strand(strand, n, file.path, draft);
   }
   if (points_left != 0)
     throw Error(file.path + ": byte 8", fmt::format("{} points belong to no strand", points_left), kDamaged);

@@ -59,7 +59,9 @@ void append_moved(const Mesh& from, const Part& part, const Affine& placement, M
 class PbrtReader {
  public:
   PbrtReader(const std::filesystem::path& folder, bool camera_only, Draft& draft)
-      : folder_(folder), camera_only_(camera_only), draft_(draft), matrix_(draft) {}
+      : folder_(folder), camera_only_(camera_only), draft_(draft), matrix_(draft) {
+    library_.options = draft.options;
+  }
 
   void run(const SourceFile& file) {
     const auto here = std::filesystem::weakly_canonical(file.path);
@@ -78,6 +80,8 @@ class PbrtReader {
     if (camera_) set_camera();
     if (object_ != nullptr) draft_.warn("pbrt: the last ObjectBegin has no ObjectEnd");
     for (const auto& [warning, times] : library_.warnings) draft_.warn(warning, times);
+    draft_.left_out.resize(draft_.options.without.size());
+    for (std::size_t i = 0; i < library_.left_out.size(); ++i) draft_.left_out[i] += library_.left_out[i];
   }
 
  private:

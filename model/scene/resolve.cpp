@@ -22,6 +22,7 @@ bool is_listed_missing(const std::filesystem::path& folder, const std::string& n
 
 std::optional<std::filesystem::path> resolve(const std::filesystem::path& folder, const std::string& name,
                                              const Place& where, Draft& draft) {
+  if (draft.leaves_out(name)) return std::nullopt;
   const std::filesystem::path above = folder.empty() ? ".." : folder / "..";
   std::error_code unreadable;
   for (const auto& candidate : {folder, above})

@@ -69,13 +69,13 @@ void read_tfx(const SourceFile& file, Draft& draft) {
   const std::uint64_t vertices = std::uint64_t{header.strands} * header.vertices_each;
   bytes.expect(vertices, kVertexBytes, "vertices");
   if (vertices == 0) return;
-  draft.require_room(file.path, 2 * vertices, 2 * vertices);
+  require_room_for_strands(file.path, header.strands, vertices, draft);
   const double width =
       draft.options.strand_thickness > 0 ? draft.options.strand_thickness : default_width(bytes, vertices);
   std::vector<StrandPoint> strand(header.vertices_each);
   for (std::uint32_t n = 0; n < header.strands; ++n) {
     for (StrandPoint& point : strand) point = {take_position(bytes), width};
-    append_ribbon(strand, n, file.path, draft);
+    append_strand(strand, n, file.path, draft);
   }
 }
 

@@ -54,6 +54,40 @@ TEST_F(LoadTest, a_list_names_files_from_its_own_folder_and_a_camera) {
   EXPECT_EQ(scene.name, "all");
 }
 
+TEST_F(LoadTest, files_that_a_scene_names_can_be_left_out_by_name) {
+  write("parts/leaf_1.obj", kNear);
+  write("parts/leaf_2.obj", kNear);
+  write("parts/stem.obj", kFar);
+  const std::string list = write("tree.list", "parts/leaf_1.obj\nparts/leaf_2.obj\nparts/stem.obj\n");
+  LoadOptions options;
+  options.without = {"leaf_*"};
+  const Scene stem = load(list, options);
+  ASSERT_EQ(stem.mesh.triangles.size(), 1u);
+  EXPECT_EQ(corners(stem.mesh, 0)[0], (Vec3{0, 0, 9}));
+  ASSERT_EQ(stem.report.warnings.size(), 1u);
+  EXPECT_EQ(stem.report.warnings[0], "'leaf_*' was left out (2 times)");
+  options.without = {"leaf_1.obj", "stem.obj"};
+  EXPECT_EQ(load(list, options).mesh.triangles.size(), 1u);
+}
+
+TEST_F(LoadTest, leaving_out_what_is_not_there_or_everything_is_an_error) {
+  write("one.obj", kNear);
+  const std::string list = write("all.list", "one.obj\n");
+  const auto expect_refused = [&](const std::string& pattern, const std::string& problem) {
+    LoadOptions options;
+    options.without = {pattern};
+    try {
+      load(list, options);
+      ADD_FAILURE() << pattern << " was accepted";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(problem), std::string::npos) << error.what();
+    }
+  };
+  expect_refused("two.obj", "'two.obj'");
+  expect_refused("one", "'one'");
+  expect_refused("*", "no triangles");
+}
+
 TEST_F(LoadTest, a_wrong_list_is_an_error_with_its_line) {
   expect_error(write("a.list", "\nabsent.obj\n"), "a.list:2", "names 'absent.obj'");
   write("b.obj", kNear);

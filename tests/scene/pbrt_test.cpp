@@ -91,6 +91,21 @@ TEST_F(PbrtTest, a_file_that_is_not_there_is_an_error_unless_it_is_listed_as_mis
   EXPECT_NE(scene.report.warnings[0].find("lost.ply"), std::string::npos);
 }
 
+TEST_F(PbrtTest, meshes_of_objects_and_includes_can_be_left_out) {
+  write("leaf.ply", "not read");
+  write("more.pbrt", "not read");
+  LoadOptions options;
+  options.without = {"leaf.ply", "more.pbrt"};
+  const Scene scene =
+      load(write("a.pbrt", std::string("WorldBegin ObjectBegin \"o\" Shape \"plymesh\" \"string filename\" "
+                                       "\"leaf.ply\" ObjectEnd ObjectInstance \"o\"\n"
+                                       "Include \"more.pbrt\"\n") +
+                               kTriangle),
+           options);
+  EXPECT_EQ(scene.mesh.triangles.size(), 1u);
+  EXPECT_EQ(scene.report.warnings.size(), 2u);
+}
+
 TEST_F(PbrtTest, warnings_of_the_parts_of_an_object_are_kept) {
   write(
       "tail.ply",

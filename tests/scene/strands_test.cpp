@@ -1,5 +1,7 @@
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "model/base/error.h"
 #include "model/scene/vector64.h"
@@ -69,6 +71,40 @@ TEST_F(HairTest, ribbons_lie_across_their_strands_and_prefer_no_side) {
   EXPECT_NEAR(xx / 4000, 0.5, 0.028);
   EXPECT_NEAR(yy / 4000, 0.5, 0.028);
   EXPECT_NEAR(xy / 4000, 0.0, 0.028);
+}
+
+TEST_F(HairTest, a_tube_has_two_triangles_a_side_and_corners_half_a_width_from_its_strand) {
+  LoadOptions options;
+  for (const int sides : {3, 4, kMostStrandSides}) {
+    options.strand_sides = sides;
+    const Scene scene = load(write("a.hair", hair_file(kTwoStrands, 0.1f, false)), options);
+    const auto corners = static_cast<std::size_t>(sides);
+    ASSERT_EQ(scene.mesh.vertices.size(), 6 * corners) << sides;
+    EXPECT_EQ(scene.mesh.triangles.size(), 8 * corners) << sides;
+    EXPECT_EQ(scene.report.zero_area_triangles, 0u) << sides;
+    EXPECT_EQ(scene.report.segments, 4u) << sides;
+    for (std::size_t v = 0; v < scene.mesh.vertices.size(); ++v) {
+      const Vec3& centre = kTwoStrands[v / (3 * corners)][v / corners % 3];
+      EXPECT_NEAR(distance(scene.mesh.vertices[v], centre), 0.05, 1e-6) << sides << " sides, vertex " << v;
+    }
+  }
+}
+
+TEST_F(HairTest, a_tube_is_closed_around_its_strand) {
+  LoadOptions options;
+  options.strand_sides = 5;
+  const Scene scene = load(write("a.hair", hair_file({{{0, 0, 0}, {1, 2, 3}, {1, 4, 4}}}, 0.1f, false)), options);
+  // Every edge inside belongs to two triangles that run through it in opposite directions; those of the two ends to
+  // one.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const auto& [a, b, c] : scene.mesh.triangles)
+    for (const auto& edge : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) ++edges[edge];
+  int alone = 0;
+  for (const auto& [edge, times] : edges) {
+    EXPECT_EQ(times, 1);
+    alone += edges.count({edge.second, edge.first}) == 0;
+  }
+  EXPECT_EQ(alone, 2 * 5);
 }
 
 TEST_F(HairTest, a_strand_whose_points_fall_together_has_no_area_but_is_kept) {

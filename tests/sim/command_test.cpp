@@ -314,6 +314,9 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("record gen:hair-ball -o x.ctut --eye 1,2", "--eye");
   expect_refused("record gen:hair-ball -o x.ctut --eye 1,2,3 --target 1,2,3", "--eye");
   expect_refused("record gen:hair-ball -o x.ctut --thickness -1", "--thickness");
+  expect_refused("record gen:hair-ball -o x.ctut --sides 1", "--sides");
+  expect_refused("record gen:hair-ball -o x.ctut --sides 17", "--sides");
+  expect_refused("record gen:hair-ball -o x.ctut --without leaf.ply", "leaf.ply");
   expect_refused("record gen:hair-ball -o x.ctut --threads -1", "--threads");
   expect_refused("record gen:hair-ball -o x.ctut --fov 500", "field of view");
   expect_refused("run hair.ctut --json no/such/folder/r.json", "no/such/folder");
