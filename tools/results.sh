@@ -50,12 +50,12 @@ paper() {
   cp "$scratch"/subspace/*.svg "$plots"
 }
 
-# One row: a scene of hair made more like the paper's, or less, at R = 4 and 6.
+# One row: a scene made more like the paper's, or less, at R = 4 and 6; of $size pixels.
 variant() {  # LABEL SCENE OPTION...
   local label=$1 r row cells="| $1 |"
   shift
   for r in 4 6; do
-    keep row "$program" culling --index "$index" "$@" --r "$r" --markdown --designs ideal,mask-lut --size 160x90
+    keep row "$program" culling --index "$index" --size "$size" "$@" --r "$r" --markdown --designs ideal,mask-lut
     row=$(tail -1 "$scratch/row")
     [ "$r" = 6 ] || cells+=$(cut -d'|' -f5 <<<"$row")"|"
     cells+=$(cut -d'|' -f6,7 <<<"$row")"|"
@@ -63,55 +63,124 @@ variant() {  # LABEL SCENE OPTION...
   echo "$cells"
 }
 
-# One row: what 256 entries cost a scene of hair against uncompressed masks.
+# One row: what 256 entries cost a scene against uncompressed masks.
 compressed_variant() {  # LABEL SCENE OPTION...
-  local label=$1
+  local label=$1 r cells="| $1 |"
   shift
-  keep row "$program" paper subspace --index "$index" "$@" --size 64x36 --spp 1 --out "$scratch/variant"
-  awk -F, -v label="$label" 'NR > 1 { cells = cells sprintf(" %+.1f | %+.1f | %+.1f |", $6 - $4, $7 - $4, $8 - $4) }
-    END { print "| " label " |" cells }' "$scratch/variant/table1.csv"
+  for r in 4 6; do
+    keep row "$program" compression --index "$index" "$@" --size 64x36 --r "$r" --markdown
+    cells+=$(awk -F'|' 'NR == 3 { exact = $10 + 0 } NR > 3 { printf " %+.1f |", $10 - exact }' "$scratch/row")
+  done
+  echo "$cells"
+}
+
+# Whether the index has the scene.
+listed() { grep -q "^$1 " "$index"; }
+
+hair_variants() {
+  local size=160x90 degrees segments
+  if listed straight-hair; then
+    for degrees in 0 5 10 12 15 20 30; do
+      variant "straight-hair, turned by $degrees degrees about x and y" straight-hair --turn "$degrees,$degrees,0"
+    done
+    variant "... as filed, ribbons a fifth as wide" straight-hair --thickness 0.02
+    variant "... as filed, one triangle a leaf" straight-hair --leaf 1
+    variant "... as filed, seen from nearby (field of view 15 degrees)" straight-hair --fov 15
+    variant "... as filed, tubes of three sides instead of ribbons" straight-hair --sides 3
+    variant "... and a fifth as wide" straight-hair --sides 3 --thickness 0.02
+  fi
+  variant "gen:straight-hair as it is" gen:straight-hair
+  variant "... ten times as wide" "gen:straight-hair?thickness=0.02"
+  variant "... and tubes of three sides" "gen:straight-hair?thickness=0.02" --sides 3
+  echo "| *paper: Straight Hair* | | 56.5 % | 61.4 % | 42.5 % | 49.3 % |"
+  if listed ratboy-mohawk; then
+    variant "ratboy-mohawk as filed" ratboy-mohawk
+    variant "... seen from nearby (field of view 10 degrees)" ratboy-mohawk --fov 10
+    variant "... and ribbons of 0.0001" ratboy-mohawk --fov 10 --thickness 0.0001
+    variant "... and one triangle a leaf" ratboy-mohawk --fov 10 --thickness 0.0001 --leaf 1
+  fi
+  for segments in 31 8 2; do
+    variant "gen:hair-ball, 2,228 strands of $segments segments, a quarter as wide" \
+      "gen:hair-ball?strands=2228&segments=$segments&thickness=0.0005"
+  done
+  for segments in 8 4 2; do
+    variant "gen:hair-ball, 20,000 strands of $segments segments" "gen:hair-ball?strands=20000&segments=$segments"
+  done
+  echo "| *paper: Hairball* | | 67.0 % | 71.5 % | 54.4 % | 61.1 % |"
+  variant "gen:curly-hair as it is" gen:curly-hair
+  variant "... 20,000 strands of 8 segments instead of 2,000 of 32" "gen:curly-hair?strands=20000&segments=8"
+  variant "... and a quarter as wide" "gen:curly-hair?strands=20000&segments=8&thickness=0.0005"
+  variant "... and one triangle a leaf" "gen:curly-hair?strands=20000&segments=8&thickness=0.0005" --leaf 1
+  variant "... 100,000 strands of 8 segments, a twentieth as wide" \
+    "gen:curly-hair?strands=100000&segments=8&thickness=0.0001"
+  echo "| *paper: Curly Hair* | | 57.5 % | 62.5 % | 43.3 % | 50.6 % |"
+}
+
+# Other scenes without the parts, or with the paths, that a difference comes from.
+other_variants() {
+  local size=96x54
+  local bath=mesh_00054.ply far=sanmiguel_00133.ply,sanmiguel_00234.ply  # the bath's mesh; lamp in the sky and ground
+  if listed bathroom; then
+    variant "bathroom as filed" bathroom
+    variant "... paths of up to 8 bounces" bathroom --bounces 8
+    variant "... without one mesh, \`$bath\` (porcelain)" bathroom --without "$bath"
+  fi
+  if listed breakfast; then
+    variant "breakfast as filed" breakfast
+    variant "... without the blinds (\`Plane_006*\`)" breakfast --without 'Plane_006*'
+    variant "... without the legs of the chairs (\`Cylinder_*\`)" breakfast --without 'Cylinder_*'
+  fi
+  echo "| *paper: Bedroom* | | 89.3 % | 90.0 % | 83.8 % | 84.9 % |"
+  if listed classroom; then
+    variant "classroom as filed" classroom
+    variant "... paths of up to 8 bounces" classroom --bounces 8
+  fi
+  echo "| *paper: Classroom* | | 87.4 % | 88.1 % | 83.5 % | 83.3 % |"
+  if listed san-miguel; then
+    variant "san-miguel as filed" san-miguel
+    variant "... without ground plane and lamp, of two triangles each" san-miguel --without "$far"
+    variant "... and one triangle a leaf" san-miguel --without "$far" --leaf 1
+    variant "... and paths of one bounce" san-miguel --without "$far" --leaf 1 --bounces 1
+  fi
+  echo "| *paper: San Miguel* | | 79.3 % | 80.5 % | 67.9 % | 70.6 % |"
+}
+
+compressed_variants() {
+  if listed straight-hair; then
+    compressed_variant "straight-hair as filed" straight-hair
+    compressed_variant "... turned by 12 degrees about x and y" straight-hair --turn 12,12,0
+    compressed_variant "... and one triangle a leaf" straight-hair --turn 12,12,0 --leaf 1
+    compressed_variant "... as filed, tubes of three sides" straight-hair --sides 3
+    compressed_variant "... and a fifth as wide" straight-hair --sides 3 --thickness 0.02
+  fi
+  compressed_variant "gen:straight-hair as it is" gen:straight-hair
+  compressed_variant "... ten times as wide, tubes of three sides" "gen:straight-hair?thickness=0.02" --sides 3
+  echo "| *paper: Straight Hair* | +0.7 | | | +4.3 | | |"
+  compressed_variant "gen:hair-ball as it is" gen:hair-ball
+  compressed_variant "... 2,228 strands of 31 segments, a quarter as wide" \
+    "gen:hair-ball?strands=2228&segments=31&thickness=0.0005"
+  compressed_variant "... of 2 segments" "gen:hair-ball?strands=2228&segments=2&thickness=0.0005"
+  compressed_variant "... 20,000 strands of 6 segments" "gen:hair-ball?strands=20000&segments=6"
+  compressed_variant "... and tubes of three sides" "gen:hair-ball?strands=20000&segments=6" --sides 3
+  echo "| *paper: Hairball* | +1.7 | | | +13.2 | | |"
+  compressed_variant "gen:curly-hair as it is" gen:curly-hair
+  compressed_variant "... 20,000 strands of 8 segments, a quarter as wide" \
+    "gen:curly-hair?strands=20000&segments=8&thickness=0.0005"
+  compressed_variant "... 100,000 strands of 8 segments, a twentieth as wide" \
+    "gen:curly-hair?strands=100000&segments=8&thickness=0.0001"
+  echo "| *paper: Curly Hair* | +3.8 | | | +9.8 | | |"
 }
 
 variants() {
   {
     echo "| scene | intersections/ray | R = 4: ideal | LUT, R_ray = R | R = 6: ideal | LUT, R_ray = R |"
     echo "| --- | ---: | ---: | ---: | ---: | ---: |"
-    if grep -q '^straight-hair ' "$index"; then
-      local degrees
-      for degrees in 0 5 10 12 15 20 30; do
-        variant "straight-hair, turned by $degrees degrees about x and y" straight-hair --turn "$degrees,$degrees,0"
-      done
-      variant "... as filed, ribbons a fifth as wide" straight-hair --thickness 0.02
-      variant "... as filed, one triangle a leaf" straight-hair --leaf 1
-      variant "... as filed, seen from nearby (field of view 15 degrees)" straight-hair --fov 15
-      echo "| *paper: Straight Hair* | | 56.5 % | 61.4 % | 42.5 % | 49.3 % |"
-    fi
-    if grep -q '^ratboy-mohawk ' "$index"; then
-      variant "ratboy-mohawk as filed" ratboy-mohawk
-      variant "... seen from nearby (field of view 10 degrees)" ratboy-mohawk --fov 10
-      variant "... and ribbons of 0.0001" ratboy-mohawk --fov 10 --thickness 0.0001
-      variant "... and one triangle a leaf" ratboy-mohawk --fov 10 --thickness 0.0001 --leaf 1
-    fi
-    local segments
-    for segments in 8 4 2; do
-      variant "gen:hair-ball, 20,000 strands of $segments segments" "gen:hair-ball?strands=20000&segments=$segments"
-    done
-    echo "| *paper: Hairball* | | 67.0 % | 71.5 % | 54.4 % | 61.1 % |"
-    variant "gen:curly-hair as it is" gen:curly-hair
-    variant "... 20,000 strands of 8 segments instead of 2,000 of 32" "gen:curly-hair?strands=20000&segments=8"
-    variant "... and a quarter as wide" "gen:curly-hair?strands=20000&segments=8&thickness=0.0005"
-    variant "... and one triangle a leaf" "gen:curly-hair?strands=20000&segments=8&thickness=0.0005" --leaf 1
-    variant "... 100,000 strands of 8 segments, a twentieth as wide" "gen:curly-hair?strands=100000&segments=8&thickness=0.0001"
-    echo "| *paper: Curly Hair* | | 57.5 % | 62.5 % | 43.3 % | 50.6 % |"
-    if grep -q '^straight-hair ' "$index"; then
-      printf '\nWhat 256 entries cost against uncompressed masks, R_ray = R, in points:\n\n'
-      echo "| scene | R = 4: importance per node | summed | our selection | R = 6: importance per node | summed | our selection |"
-      echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"
-      compressed_variant "straight-hair as filed" straight-hair
-      compressed_variant "... turned by 12 degrees about x and y" straight-hair --turn 12,12,0
-      compressed_variant "... and one triangle a leaf" straight-hair --turn 12,12,0 --leaf 1
-      echo "| *paper: Straight Hair* | +0.7 | | | +4.3 | | |"
-    fi
+    hair_variants
+    other_variants
+    printf '\nWhat 256 entries cost against uncompressed masks, R_ray = R, in points:\n\n'
+    echo "| scene | R = 4: importance per node | summed | our selection | R = 6: importance per node | summed | our selection |"
+    echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"
+    compressed_variants
   } >"$scratch/variants"
   put variants
 }

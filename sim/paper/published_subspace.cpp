@@ -71,7 +71,7 @@ constexpr Pair kPairs[] = {
     {"gen:hair-ball", Kinship::Like, "Hairball", "2,000 straight strands by formula"},
     {"bathroom", Kinship::Like, "Bedroom", "another interior"},
     {"kitchen", Kinship::Like, "Bedroom", "another interior"},
-    {"breakfast", Kinship::Like, "Bedroom", "another interior, with window blinds"},
+    {"breakfast", Kinship::Like, "Bedroom", "another interior, whose chairs have thin tilted legs"},
     {"sponza", Kinship::Like, "VictorianTrains", "another building from inside"},
 };
 
