@@ -18,8 +18,13 @@ module arrival_queue #(
   logic [SLOT_BITS-1:0] ring_q[1 << SLOT_BITS];
   logic [SLOT_BITS:0] head_q, tail_q;  // one bit more than a place, to tell full from empty
 
+`ifdef CTU_MUTATE_SCHEDULER_RAYS_FIRST
+  wire [SLOT_BITS-1:0] second_place = tail_q[SLOT_BITS-1:0];
+  wire [SLOT_BITS-1:0] first_place = second_place + SLOT_BITS'(second_push_i);
+`else
   wire [SLOT_BITS-1:0] first_place = tail_q[SLOT_BITS-1:0];
   wire [SLOT_BITS-1:0] second_place = first_place + SLOT_BITS'(first_push_i);
+`endif
 
   assign valid_o = head_q != tail_q;
   assign slot_o = ring_q[head_q[SLOT_BITS-1:0]];

@@ -19,11 +19,11 @@ module box_test #(
     input  logic                                  clk_i,
     input  logic                                  rst_i,
     input  logic                                  node_valid_i,
-    input  logic [                SLOT_BITS+31:0] node_data_i,        // a ref
+    input  logic [                SLOT_BITS+31:0] node_data_i,          // a ref
     output logic                                  node_pop_o,
     input  logic                                  tested_ready_i,
     output logic                                  tested_push_o,
-    output logic [SLOT_BITS+`CTU_NODE_FIELDS-1:0] tested_data_o,      // a node; survivors as hits, order and asked 0
+    output logic [SLOT_BITS+`CTU_NODE_FIELDS-1:0] tested_data_o,        // a node; survivors as hits, order and asked 0
     // The context of the node popped: its ray, best hit and the boxes that node_fetch holds for it.
     output logic [                 SLOT_BITS-1:0] ray_slot_o,
     input  logic [                          95:0] ray_origin_i,
@@ -33,7 +33,7 @@ module box_test #(
     input  logic [                           2:0] ray_negative_axes_i,
     input  logic [                          31:0] ray_tmin_i,
     input  logic [                          31:0] best_t_i,
-    input  logic [                         767:0] boxes_i,            // lo, above it hi: bytes 0 .. 95
+    input  logic [                         767:0] boxes_i,              // lo, above it hi: bytes 0 .. 95
     // The context of the token pushed: where its ray meets the boxes.
     output logic                                  times_write_o,
     output logic [                 SLOT_BITS-1:0] times_slot_o,
@@ -52,7 +52,7 @@ module box_test #(
   wire unused_reference = &{1'b0, node_data_i[31:0]};  // node_fetch knows by the context which bytes they are
   assign ray_slot_o = node_data_i[32+:SLOT_BITS];
 
-  logic can_enter, start, enable, leaves, empty;
+  logic can_enter, enable, empty, unused_start, unused_exit_valid;  // a token starts while it is popped
   assign node_pop_o = node_valid_i && can_enter;
   pipe_control #(
       .LATENCY(LATENCY)
@@ -63,13 +63,12 @@ module box_test #(
       .occupies_i(1'b1),
       .ready_i(tested_ready_i),
       .can_enter_o(can_enter),
-      .start_o(start),
+      .start_o(unused_start),
       .enable_o(enable),
-      .exit_valid_o(leaves),
+      .exit_valid_o(unused_exit_valid),
       .exit_o(tested_push_o),
       .empty_o(empty)
   );
-  wire unused_start = start;  // the token is at the first register while it is popped
 
   pipe_row #(
       .WIDTH(SLOT_BITS),
@@ -122,29 +121,15 @@ module box_test #(
 `endif
         assign lo[32*axis+:32] = boxes_i[32*(4*FROM+lane)+:32];
         assign hi[32*axis+:32] = boxes_i[32*(12+4*FROM+lane)+:32];
-        if (INNER) begin : g_times
-          assign times_near_down_o[32*(4*axis+lane)+:32] = near_down[32*axis+:32];
-          assign times_near_up_o[32*(4*axis+lane)+:32] = near_up[32*axis+:32];
-          assign times_far_down_o[32*(4*axis+lane)+:32] = far_down[32*axis+:32];
-          assign times_far_up_o[32*(4*axis+lane)+:32] = far_up[32*axis+:32];
-        end else begin : g_no_times
-          assign times_near_down_o[32*(4*axis+lane)+:32] = 32'd0;
-          assign times_near_up_o[32*(4*axis+lane)+:32] = 32'd0;
-          assign times_far_down_o[32*(4*axis+lane)+:32] = 32'd0;
-          assign times_far_up_o[32*(4*axis+lane)+:32] = 32'd0;
-        end
-      end
-      if (!INNER) begin : g_unused
-        wire unused_times = &{1'b0, near_down, near_up, far_down, far_up};
+        assign times_near_down_o[32*(4*axis+lane)+:32] = near_down[32*axis+:32];
+        assign times_near_up_o[32*(4*axis+lane)+:32] = near_up[32*axis+:32];
+        assign times_far_down_o[32*(4*axis+lane)+:32] = far_down[32*axis+:32];
+        assign times_far_up_o[32*(4*axis+lane)+:32] = far_up[32*axis+:32];
       end
     end
   endgenerate
   assign tested_data_o = {times_slot_o, hits, hits, 12'd0};
   assign times_write_o = tested_push_o;
 
-  always_comb begin
-    if (leaves && !tested_ready_i) activity_o = `CTU_OUTPUT_FULL;
-    else if (node_pop_o || !empty) activity_o = `CTU_BUSY;
-    else activity_o = `CTU_IDLE;
-  end
+  assign activity_o = !enable ? `CTU_OUTPUT_FULL : node_pop_o || !empty ? `CTU_BUSY : `CTU_IDLE;
 endmodule

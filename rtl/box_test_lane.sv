@@ -10,7 +10,7 @@ module box_test_lane #(
     parameter int SUBTRACT_LATENCY = 4,
     parameter int MULTIPLY_LATENCY = 4,
     parameter int COMPARE_LATENCY = 3,
-    parameter bit INNER = 1'b1
+    parameter bit INNER = 1'b1  // 0: the bounds by axis are zero
 ) (
     input  logic        clk_i,
     input  logic        enable_i,
@@ -60,15 +60,22 @@ module box_test_lane #(
       );
     end
   endgenerate
-  pipe_row #(
-      .WIDTH(384),
-      .DEPTH(COMPARE_LATENCY)
-  ) row_times (
-      .clk_i,
-      .enable_i,
-      .data_i({near_down, near_up, far_down, far_up}),
-      .data_o({near_down_o, near_up_o, far_down_o, far_up_o})
-  );
+  generate
+    if (INNER) begin : g_times
+      pipe_row #(
+          .WIDTH(384),
+          .DEPTH(COMPARE_LATENCY)
+      ) row_times (
+          .clk_i,
+          .enable_i,
+          .data_i({near_down, near_up, far_down, far_up}),
+          .data_o({near_down_o, near_up_o, far_down_o, far_up_o})
+      );
+    end else begin : g_no_times
+      wire unused_inner = &{1'b0, near_up, far_down};
+      assign {near_down_o, near_up_o, far_down_o, far_up_o} = '0;
+    end
+  endgenerate
 
   logic [31:0] tmin_q, tmax_q;
   pipe_row #(

@@ -16,13 +16,13 @@ module child_sort #(
     input  logic                                  clk_i,
     input  logic                                  rst_i,
     input  logic                                  survivors_valid_i,
-    input  logic [SLOT_BITS+`CTU_NODE_FIELDS-1:0] survivors_data_i,  // a node; of its order and asked nothing is read
+    input  logic [SLOT_BITS+`CTU_NODE_FIELDS-1:0] survivors_data_i,   // a node; of its order and asked nothing is read
     output logic                                  survivors_pop_o,
     input  logic                                  sorted_ready_i,
     output logic                                  sorted_push_o,
-    output logic [SLOT_BITS+`CTU_NODE_FIELDS-1:0] sorted_data_o,     // a node, with its order; asked is 0
+    output logic [SLOT_BITS+`CTU_NODE_FIELDS-1:0] sorted_data_o,      // a node, with its order; asked is 0
     output logic [                 SLOT_BITS-1:0] times_slot_o,
-    input  logic [                         127:0] times_t0_i,        // of the four lanes
+    input  logic [                         127:0] times_t0_i,         // of the four lanes
     output logic [                           3:0] activity_o
 );
   // Registers behind the three steps.
@@ -34,7 +34,7 @@ module child_sort #(
   logic [11:0] unused_fields;
   assign {times_slot_o, hits, survivors, unused_fields} = survivors_data_i;
 
-  logic can_enter, start, enable, leaves, empty;
+  logic can_enter, enable, empty, unused_start, unused_exit_valid;  // a token starts while it is popped
   assign survivors_pop_o = survivors_valid_i && can_enter;
   pipe_control #(
       .LATENCY(LATENCY)
@@ -45,13 +45,12 @@ module child_sort #(
       .occupies_i(1'b1),
       .ready_i(sorted_ready_i),
       .can_enter_o(can_enter),
-      .start_o(start),
+      .start_o(unused_start),
       .enable_o(enable),
-      .exit_valid_o(leaves),
+      .exit_valid_o(unused_exit_valid),
       .exit_o(sorted_push_o),
       .empty_o(empty)
   );
-  wire unused_start = start;  // the token is at the first register while it is popped
 
   logic [SLOT_BITS-1:0] slot_q;
   logic [3:0] hits_q, survivors_q;
@@ -146,9 +145,5 @@ module child_sort #(
   );
   assign sorted_data_o = {slot_q, hits_q, survivors_q, order_q3, 4'd0};
 
-  always_comb begin
-    if (leaves && !sorted_ready_i) activity_o = `CTU_OUTPUT_FULL;
-    else if (survivors_pop_o || !empty) activity_o = `CTU_BUSY;
-    else activity_o = `CTU_IDLE;
-  end
+  assign activity_o = !enable ? `CTU_OUTPUT_FULL : survivors_pop_o || !empty ? `CTU_BUSY : `CTU_IDLE;
 endmodule

@@ -13,25 +13,25 @@ module hit_update #(
     parameter int SLOT_BITS = 5,
     parameter int LATENCY = 2
 ) (
-    input  logic                                   clk_i,
-    input  logic                                   rst_i,
-    input  logic                                   tested_valid_i,
+    input  logic                                    clk_i,
+    input  logic                                    rst_i,
+    input  logic                                    tested_valid_i,
     input  logic [SLOT_BITS+`CTU_TESTED_FIELDS-1:0] tested_data_i,
-    output logic                                   tested_pop_o,
-    input  logic                                   done_ready_i,
-    output logic                                   done_push_o,
-    output logic [                    SLOT_BITS:0] done_data_o,       // a leaf done
+    output logic                                    tested_pop_o,
+    input  logic                                    done_ready_i,
+    output logic                                    done_push_o,
+    output logic [                     SLOT_BITS:0] done_data_o,       // a leaf done
     // The best hit of the outcome's context: read, and written in the same cycle.
-    output logic [                  SLOT_BITS-1:0] best_slot_o,
-    input  logic [                           31:0] best_t_i,
-    input  logic [                           31:0] best_primitive_i,  // all ones: no hit yet
-    input  logic                                   best_any_hit_i,    // any hit is enough for this ray
-    output logic                                   best_write_o,
-    output logic [                           31:0] best_t_o,
-    output logic [                           31:0] best_u_o,
-    output logic [                           31:0] best_v_o,
-    output logic [                           31:0] best_primitive_o,
-    output logic [                            3:0] activity_o
+    output logic [                   SLOT_BITS-1:0] best_slot_o,
+    input  logic [                            31:0] best_t_i,
+    input  logic [                            31:0] best_primitive_i,  // all ones: no hit yet
+    input  logic                                    best_any_hit_i,    // any hit is enough for this ray
+    output logic                                    best_write_o,
+    output logic [                            31:0] best_t_o,
+    output logic [                            31:0] best_u_o,
+    output logic [                            31:0] best_v_o,
+    output logic [                            31:0] best_primitive_o,
+    output logic [                             3:0] activity_o
 );
   logic [3:0] unused_index;
   logic last, hit;
@@ -57,7 +57,7 @@ module hit_update #(
   end
   assign best_write_o = tested_pop_o && replaces;
 
-  logic can_enter, start, enable, leaves, empty;
+  logic can_enter, enable, empty, unused_start, unused_exit_valid;  // a token starts while it is popped
   assign tested_pop_o = tested_valid_i && can_enter;
   pipe_control #(
       .LATENCY(LATENCY)
@@ -68,13 +68,12 @@ module hit_update #(
       .occupies_i(1'b1),
       .ready_i(done_ready_i),
       .can_enter_o(can_enter),
-      .start_o(start),
+      .start_o(unused_start),
       .enable_o(enable),
-      .exit_valid_o(leaves),
+      .exit_valid_o(unused_exit_valid),
       .exit_o(done_push_o),
       .empty_o(empty)
   );
-  wire unused_start = start;  // the token is at the first register while it is popped
   pipe_row #(
       .WIDTH(SLOT_BITS + 1),
       .DEPTH(LATENCY)
@@ -85,9 +84,5 @@ module hit_update #(
       .data_o(done_data_o)
   );
 
-  always_comb begin
-    if (leaves && !done_ready_i) activity_o = `CTU_OUTPUT_FULL;
-    else if (tested_pop_o || !empty) activity_o = `CTU_BUSY;
-    else activity_o = `CTU_IDLE;
-  end
+  assign activity_o = !enable ? `CTU_OUTPUT_FULL : tested_pop_o || !empty ? `CTU_BUSY : `CTU_IDLE;
 endmodule

@@ -6,8 +6,8 @@ module next_in_turn #(
 ) (
     input  logic [(1<<PLACE_BITS)-1:0] members_i,
     input  logic [     PLACE_BITS-1:0] start_i,
-    output logic                       found_o,   // the set is not empty
-    output logic [     PLACE_BITS-1:0] place_o    // of the empty set: 0
+    output logic                       found_o,    // the set is not empty
+    output logic [     PLACE_BITS-1:0] place_o     // of the empty set: 0
 );
   localparam int PLACES = 1 << PLACE_BITS;
 

@@ -13,22 +13,22 @@
 module scheduler #(
     parameter int SLOT_BITS = 5
 ) (
-    input  logic                 clk_i,
-    input  logic                 rst_i,
-    input  logic                 policy_round_robin_i,  // strap: scheduler.policy
-    input  logic                 from_stack_valid_i,
-    input  logic [SLOT_BITS+31:0] from_stack_data_i,     // a ref
-    output logic                 from_stack_pop_o,
-    input  logic                 from_rays_valid_i,
-    input  logic [SLOT_BITS+31:0] from_rays_data_i,      // a ref
-    output logic                 from_rays_pop_o,
-    input  logic                 to_node_fetch_ready_i,
-    output logic                 to_node_fetch_push_o,
-    output logic [SLOT_BITS+31:0] to_node_fetch_data_o,  // a ref
-    input  logic                 to_leaf_fetch_ready_i,
-    output logic                 to_leaf_fetch_push_o,
-    output logic [SLOT_BITS+31:0] to_leaf_fetch_data_o,  // a ref
-    output logic [          3:0] activity_o
+    input  logic                  clk_i,
+    input  logic                  rst_i,
+    input  logic                  policy_round_robin_i,   // strap: scheduler.policy
+    input  logic                  from_stack_valid_i,
+    input  logic [SLOT_BITS+31:0] from_stack_data_i,      // a ref
+    output logic                  from_stack_pop_o,
+    input  logic                  from_rays_valid_i,
+    input  logic [SLOT_BITS+31:0] from_rays_data_i,       // a ref
+    output logic                  from_rays_pop_o,
+    input  logic                  to_node_fetch_ready_i,
+    output logic                  to_node_fetch_push_o,
+    output logic [SLOT_BITS+31:0] to_node_fetch_data_o,   // a ref
+    input  logic                  to_leaf_fetch_ready_i,
+    output logic                  to_leaf_fetch_push_o,
+    output logic [SLOT_BITS+31:0] to_leaf_fetch_data_o,   // a ref
+    output logic [           3:0] activity_o
 );
   localparam int SLOTS = 1 << SLOT_BITS;
 
@@ -141,9 +141,7 @@ module scheduler #(
       if (issue) begin
         node_set_q[turn_slot] <= 1'b0;
         leaf_set_q[turn_slot] <= 1'b0;
-`ifdef CTU_MUTATE_SCHEDULER_TURN_STAYS
-        turn_q <= turn_slot;
-`else
+`ifndef CTU_MUTATE_SCHEDULER_LOWEST_FIRST
         turn_q <= turn_slot + SLOT_BITS'(1);
 `endif
       end

@@ -122,8 +122,11 @@ module float_mul #(
   );
 
   // 4: rounded and packed.
-  logic [31:0] rounded;
-  float_round round (
+  float_finish #(
+      .LATENCY(REGISTERS_4)
+  ) finish (
+      .clk_i,
+      .enable_i,
       .sign_i(sign_q3),
       .exponent_i(exponent_q3),
       .significand_i(significand_q3),
@@ -132,15 +135,6 @@ module float_mul #(
       .infinite_i(infinite_q3),
       .nan_i(nan_q3),
       .round_i(round_q3),
-      .result_o(rounded)
-  );
-  pipe_row #(
-      .WIDTH(32),
-      .DEPTH(REGISTERS_4)
-  ) row_4 (
-      .clk_i,
-      .enable_i,
-      .data_i(rounded),
-      .data_o(result_o)
+      .result_o
   );
 endmodule

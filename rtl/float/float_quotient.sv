@@ -136,8 +136,12 @@ module float_quotient #(
   generate
     for (genvar direction = 0; direction < (DIRECTED ? 3 : 1); direction++) begin : g_round
       localparam logic [1:0] ROUND = direction[1:0];
-      logic [31:0] rounded, rounded_q;
-      float_round round (
+      logic [31:0] rounded;
+      float_finish #(
+          .LATENCY(LATENCY - (STEPS - 1) * LATENCY / STEPS)
+      ) finish (
+          .clk_i,
+          .enable_i,
           .sign_i(sign_q),
           .exponent_i(exponent_q),
           .significand_i(significand_q),
@@ -148,22 +152,13 @@ module float_quotient #(
           .round_i(ROUND),
           .result_o(rounded)
       );
-      pipe_row #(
-          .WIDTH(32),
-          .DEPTH(LATENCY - (STEPS - 1) * LATENCY / STEPS)
-      ) row_rounded (
-          .clk_i,
-          .enable_i,
-          .data_i(rounded),
-          .data_o(rounded_q)
-      );
     end
   endgenerate
-  assign nearest_o = g_round[0].rounded_q;
+  assign nearest_o = g_round[0].rounded;
   generate
     if (DIRECTED) begin : g_directed
-      assign down_o = g_round[1].rounded_q;
-      assign up_o = g_round[2].rounded_q;
+      assign down_o = g_round[1].rounded;
+      assign up_o = g_round[2].rounded;
     end else begin : g_nearest
       assign down_o = 32'd0;
       assign up_o = 32'd0;

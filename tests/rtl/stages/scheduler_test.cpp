@@ -1,6 +1,7 @@
 // rtl/scheduler.sv against the model's scheduler within a unit at work: every handshake and account in every cycle.
+#include "VMutantSchedulerLowestFirst.h"
 #include "VMutantSchedulerNodesFirst.h"
-#include "VMutantSchedulerTurnStays.h"
+#include "VMutantSchedulerRaysFirst.h"
 #include "VScheduler.h"
 #include "tests/oracle/seed.h"
 #include "tests/rtl/stages/stage_run.h"
@@ -18,7 +19,7 @@ std::uint64_t bits_of(const pipeline::RefToken& token) {
 
 struct Compared {
   std::string difference;
-  std::uint64_t issues = 0, full_cycles = 0;
+  std::uint64_t issues = 0, full_cycles = 0, double_arrivals = 0;
 };
 
 /// The twin beside the model's stage for one run.
@@ -51,6 +52,7 @@ Compared compare(const test::World& world, const pipeline::UnitConfig& config, s
       difference.same("to_leaf_fetch", twin.to_leaf_fetch_data_o, bits_of(stage.to_leaf_fetch.token));
     compared.issues += stage.to_node_fetch.pushed || stage.to_leaf_fetch.pushed;
     compared.full_cycles += stage.account.current() == pipeline::Activity::OutputFull;
+    compared.double_arrivals += stage.from_stack.popped && stage.from_rays.popped;
     clock(twin);
     return difference.take();
   });
@@ -66,6 +68,7 @@ pipeline::UnitConfig config_of(SchedulerPolicy policy, int contexts) {
   pipeline::UnitConfig config = world().config();
   config.scheduler.policy = policy;
   config.unit.contexts = contexts;
+  config.ray_setup.interval = 1;
   config.node_cache.bytes = 2048;  // misses, so that fetches run full
   config.node_cache.mshrs = 2;
   return config;
@@ -73,7 +76,7 @@ pipeline::UnitConfig config_of(SchedulerPolicy policy, int contexts) {
 
 TEST(Scheduler, issues_what_the_model_issues_in_every_cycle_under_both_policies) {
   SCOPED_TRACE(oracle::seed_note());
-  std::uint64_t full_cycles = 0;
+  std::uint64_t full_cycles = 0, double_arrivals = 0;
   for (const SchedulerPolicy policy : {SchedulerPolicy::Oldest, SchedulerPolicy::RoundRobin}) {
     for (const int contexts : {1, 2, 7, 1 << kSlotBits}) {
       for (const std::uint64_t stall_seed : {std::uint64_t{0}, oracle::test_seed(), oracle::test_seed() + 1}) {
@@ -82,10 +85,12 @@ TEST(Scheduler, issues_what_the_model_issues_in_every_cycle_under_both_policies)
             << contexts << " contexts, policy " << static_cast<int>(policy) << ", stall seed " << stall_seed;
         EXPECT_EQ(compared.issues, world().counts().node_visits + world().counts().leaf_visits);
         full_cycles += compared.full_cycles;
+        double_arrivals += compared.double_arrivals;
       }
     }
   }
   EXPECT_GT(full_cycles, 100u);
+  EXPECT_GT(double_arrivals, 100u);
 }
 
 template <class Model>
@@ -95,8 +100,11 @@ void expect_caught(SchedulerPolicy policy) {
 TEST(SchedulerMutants, a_node_that_always_goes_before_an_older_leaf_is_caught) {
   expect_caught<VMutantSchedulerNodesFirst>(SchedulerPolicy::Oldest);
 }
-TEST(SchedulerMutants, a_turn_that_stays_with_the_context_just_issued_is_caught) {
-  expect_caught<VMutantSchedulerTurnStays>(SchedulerPolicy::RoundRobin);
+TEST(SchedulerMutants, rays_of_ray_queue_queued_before_those_of_the_stack_are_caught) {
+  expect_caught<VMutantSchedulerRaysFirst>(SchedulerPolicy::Oldest);
+}
+TEST(SchedulerMutants, the_lowest_context_instead_of_the_next_in_turn_is_caught) {
+  expect_caught<VMutantSchedulerLowestFirst>(SchedulerPolicy::RoundRobin);
 }
 
 }  // namespace
