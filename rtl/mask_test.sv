@@ -15,6 +15,7 @@
 // last turn of reads, by the slot of that token; the indices that read the compression LUT in the cycle of the pop.
 // A host fills the tables before it lets rays in: memories are numbered and rows have the content of
 // cull::TableContent (model/cull/table_content.h).
+`include "key_fold.svh"
 `include "mask_designs.svh"
 `include "tokens.svh"
 
@@ -25,6 +26,7 @@ module mask_test #(
     parameter int ENTRIES = 0,             // of the compression LUT at most; 0: object masks are not compressed
     parameter int DISTINCT = 1270,         // masks or bit rows of dedup at most
     parameter int PROJECTION_TABLES = 3,   // or 1
+    parameter int ROWS = `CTU_ROWS_ALL,
     parameter int BANKS = 4,               // a power of two
     parameter int PORTS = 1,
     parameter int LATENCY = 2,
@@ -63,6 +65,8 @@ module mask_test #(
     input  logic [                            1:0] load_table_i,
     input  logic [                           27:0] load_row_i,
     input  logic [                  LOAD_BITS-1:0] load_data_i,
+    // a lane asks for a row that was left out (reachable), which ends the model's run; with located_pop_o
+    output logic                                   left_out_o,
     output logic [                            3:0] activity_o
 );
   localparam bit IS_PROJECTION = DESIGN == `CTU_DESIGN_PROJECTION;
@@ -74,17 +78,25 @@ module mask_test #(
   localparam int ROWS_OF_LANE = IS_PROJECTION ? 3 : 1;
   localparam int READS_OF_LANE = IS_KEYED ? ROWS_OF_LANE / KEY_TABLES : 1;
   localparam int LUT_TABLE = KEY_TABLES;
+  localparam int AXES = IS_PROJECTION ? 2 : 3;
   localparam int CELL_PAIRS = R_RAY * R_RAY;
-  localparam int TABLE_ROWS = CELL_PAIRS * CELL_PAIRS * (IS_PROJECTION ? 1 : CELL_PAIRS);
+  localparam bit LEAVES_OUT = ROWS == `CTU_ROWS_REACHABLE && !IS_PROJECTION;
+  localparam int TABLE_ROWS =
+      ROWS == `CTU_ROWS_ALL ? CELL_PAIRS * CELL_PAIRS * (IS_PROJECTION ? 1 : CELL_PAIRS) :
+      BIT_ROWS ? `CTU_REVERSED_CLASSES(R_RAY) - (LEAVES_OUT ? `CTU_REVERSED_CLASSES(R_RAY - 2) : 0) :
+      `CTU_MIRRORED_CLASSES(AXES, R_RAY, 1'b1) - (LEAVES_OUT ? `CTU_MIRRORED_CLASSES(AXES, R_RAY - 2, 1'b1) : 0);
+  localparam bit MIRRORS = IS_KEYED && ROWS != `CTU_ROWS_ALL && !BIT_ROWS;
+  localparam int MIRROR_BITS = AXES * ROWS_OF_LANE;  // of a lane
   localparam int ROW_BITS = $clog2(TABLE_ROWS);
   localparam int ID_BITS = DISTINCT > 1 ? $clog2(DISTINCT) : 1;
-  localparam int TABLE_WIDTH = IS_DEDUP ? ID_BITS : ROW_WIDTH;
+  localparam int ID_MIRROR_BITS = MIRRORS ? 3 : 0;
+  localparam int TABLE_WIDTH = IS_DEDUP ? ID_BITS + ID_MIRROR_BITS : ROW_WIDTH;
   localparam int LANE_BITS = ROW_WIDTH * ROWS_OF_LANE;  // what a lane's test sees
   localparam int OBJECT_BITS = BIT_ROWS ? INDEX_BITS : CELLS;
 
   // The token that enters.
   logic [SLOT_BITS-1:0] slot;
-  logic [3:0] hits, asked, uncertain, reads;
+  logic [3:0] hits, asked, uncertain, left_out, reads;
   logic enter, can_enter, enable, empty;
   assign slot = located_data_i[`CTU_NODE_FIELDS+:SLOT_BITS];
   assign hits = located_data_i[19:16];
@@ -92,13 +104,17 @@ module mask_test #(
   assign reads = asked & ~uncertain;
   assign enter = located_valid_i && can_enter;
   assign located_pop_o = enter;
+  assign left_out_o = enter && (reads & left_out) != 4'd0;
   wire unused_fields = &{1'b0, located_data_i[15:4]};
 
-  // What travels with its reads, and stands beside the rows when they are there: {slot, hits, lanes with a question}.
-  localparam int INFO_BITS = SLOT_BITS + 8;
+  // What travels with its reads, and stands beside the rows when they are there: {how rows are mirrored, slot, hits, lanes
+  // with a question}.
+  localparam int INFO_BITS = 4 * MIRROR_BITS + SLOT_BITS + 8;
+  logic [4*MIRROR_BITS-1:0] mirror;
   logic [INFO_BITS-1:0] info_q, tested;
-  always_ff @(posedge clk_i) if (enter) info_q <= {slot, hits, reads};
+  always_ff @(posedge clk_i) if (enter) info_q <= {mirror, slot, hits, reads};
   wire [SLOT_BITS-1:0] tested_slot = tested[8+:SLOT_BITS];
+  wire [4*MIRROR_BITS-1:0] tested_mirror = tested[8+SLOT_BITS+:4*MIRROR_BITS];
 
   // Reads by key.
   logic [4*(KEY_TABLES+1)-1:0] turns_of;  // by table; the compression LUT's last
@@ -116,6 +132,8 @@ module mask_test #(
         wire [14:0] cells_begin = key_i[31*lane+:15];
         wire [14:0] cells_end = key_i[31*lane+15+:15];
         assign uncertain[lane] = key_i[31*lane+30];
+        logic [ROWS_OF_LANE-1:0] no_row;
+        assign left_out[lane] = |no_row;
         if (IS_PROJECTION) begin : g_pairs
           for (genvar pair = 0; pair < 3; pair++) begin : g_pair
             localparam int A = pair == 1 ? 1 : 0;  // xy, yz, xz
@@ -123,22 +141,29 @@ module mask_test #(
             key_row #(
                 .AXES(2),
                 .R_RAY(R_RAY),
+                .ROWS(ROWS),
                 .ROW_BITS(ROW_BITS)
             ) number (
                 .begin_i({cells_begin[5*B+:5], cells_begin[5*A+:5]}),
                 .end_i({cells_end[5*B+:5], cells_end[5*A+:5]}),
-                .row_o(row[ROW_BITS*(3*lane+pair)+:ROW_BITS])
+                .row_o(row[ROW_BITS*(3*lane+pair)+:ROW_BITS]),
+                .mirrored_o(mirror[2*(3*lane+pair)+:2]),
+                .left_out_o(no_row[pair])
             );
           end
         end else begin : g_key
           key_row #(
               .AXES(3),
               .R_RAY(R_RAY),
+              .ROWS(ROWS),
+              .MIRRORS(!BIT_ROWS),
               .ROW_BITS(ROW_BITS)
           ) number (
               .begin_i(cells_begin),
               .end_i(cells_end),
-              .row_o(row[ROW_BITS*lane+:ROW_BITS])
+              .row_o(row[ROW_BITS*lane+:ROW_BITS]),
+              .mirrored_o(mirror[3*lane+:3]),
+              .left_out_o(no_row[0])
           );
         end
       end
@@ -178,6 +203,8 @@ module mask_test #(
       assign key_slot_o = slot;
     end else begin : g_cells
       assign uncertain = 4'd0;
+      assign left_out = 4'd0;
+      assign mirror = '0;
       assign key_rows = key_i;
       assign key_slot_o = tested_slot;
     end
@@ -249,7 +276,21 @@ module mask_test #(
           there_q <= rest_q == 4'd1 || (enter && turns == 4'd1);
         end
       end
-      always_ff @(posedge clk_i) if (start) info_by_id_q <= info_q;
+      // A folded key's row is a mask mirrored, and what it numbers is mirrored too.
+      logic [4*ID_BITS-1:0] id;
+      logic [INFO_BITS-1:0] info_by_id;
+      for (genvar lane = 0; lane < 4; lane++) begin : g_id
+        assign id[ID_BITS*lane+:ID_BITS] = key_rows[TABLE_WIDTH*lane+ID_MIRROR_BITS+:ID_BITS];
+        if (MIRRORS) begin : g_mirrored
+          assign info_by_id[8+SLOT_BITS+3*lane+:3] =
+              info_q[8+SLOT_BITS+3*lane+:3] ^ key_rows[TABLE_WIDTH*lane+:3];
+        end else begin : g_as_it_is
+          assign info_by_id[8+SLOT_BITS+3*lane+:3] = 3'd0;
+        end
+      end
+      assign info_by_id[8+SLOT_BITS-1:0] = info_q[8+SLOT_BITS-1:0];
+      always_ff @(posedge clk_i) if (start) info_by_id_q <= info_by_id;
+      wire unused_mirror = &{1'b0, info_q};
       table_memory #(
           .ROWS(DISTINCT),
           .WIDTH(ROW_WIDTH),
@@ -265,7 +306,7 @@ module mask_test #(
           .load_data_i(load_data_i[ROW_WIDTH-1:0]),
           .start_i(start),
           .valid_i(info_q[3:0]),
-          .row_i(key_rows),
+          .row_i(id),
           .turns_o(turns_by_id),
           .data_o(rows)
       );
@@ -317,10 +358,13 @@ module mask_test #(
           .DESIGN(DESIGN),
           .R(R),
           .BIT_ROWS(BIT_ROWS),
+          .MIRRORS(MIRRORS),
+          .MIRROR_BITS(MIRROR_BITS),
           .ROW_BITS(LANE_BITS),
           .OBJECT_BITS(OBJECT_BITS)
       ) test (
           .row_i(rows[LANE_BITS*lane+:LANE_BITS]),
+          .mirror_i(tested_mirror[MIRROR_BITS*lane+:MIRROR_BITS]),
           .object_i(objects[OBJECT_BITS*lane+:OBJECT_BITS]),
           .pass_o(pass[lane])
       );

@@ -69,7 +69,7 @@ void TableContent::fill_ids(const DedupTable& dedup, std::uint32_t number, int m
     set(1, row.row, mask);
   } else {
     const std::uint64_t axes = MirrorNumbering(mirrored_resolution).number_of(mask).axes;
-    content |= axes << (tables()[0].row_bits - kMirrorBits);
+    content = content << kMirrorBits | axes;
     set(1, row.row, mirrored_mask(mask, mirrored_resolution, static_cast<unsigned>(axes)).data());
   }
   set(0, id.row, &content);

@@ -283,19 +283,6 @@ TEST(Contract, designs_with_the_same_masks_and_keys_have_the_same_events) {
     }
 }
 
-/// Rays of the world whose origins lie outside the whole scene.
-std::vector<intersect::Ray> rays_from_outside(const World& world) {
-  std::vector<intersect::Ray> outside;
-  for (const auto& block : world.blocks())
-    for (const intersect::Ray& ray : block->rays) {
-      bool away = false;
-      for (int axis = 0; axis < 3; ++axis)
-        away |= ray.origin[axis] < world.tree().lower[axis] || ray.origin[axis] > world.tree().upper[axis];
-      if (away) outside.push_back(ray);
-    }
-  return outside;
-}
-
 TEST(Contract, rows_for_rays_from_outside_are_enough_for_those) {
   for (const Case& c : kCases) {
     if (!cull::reads_tables(c.design)) continue;

@@ -191,6 +191,18 @@ intersect::Ray ray_through_leaves() {
   return ray;
 }
 
+std::vector<intersect::Ray> rays_from_outside(const World& world) {
+  std::vector<intersect::Ray> outside;
+  for (const auto& block : world.blocks())
+    for (const intersect::Ray& ray : block->rays) {
+      bool away = false;
+      for (int axis = 0; axis < 3; ++axis)
+        away |= ray.origin[axis] < world.tree().lower[axis] || ray.origin[axis] > world.tree().upper[axis];
+      if (away) outside.push_back(ray);
+    }
+  return outside;
+}
+
 std::uint64_t counter(const pipeline::UnitResult& result, const std::string& name) {
   for (const auto& counter : result.counters)
     if (counter.name == name) return counter.value;

@@ -69,6 +69,9 @@ accel::Bvh4 filled_leaves(int lanes);
 /// A ray that meets every box and triangle of both.
 intersect::Ray ray_through_leaves();
 
+/// Rays of the world whose origins lie outside the whole scene.
+std::vector<intersect::Ray> rays_from_outside(const World& world);
+
 std::uint64_t counter(const pipeline::UnitResult& result, const std::string& name);
 
 }  // namespace ctu::test

@@ -69,6 +69,7 @@ class MaskTestTwin {
 
   void compare() {
     ASSERT_EQ(model_.located_pop_o, stage().located.popped);
+    ASSERT_EQ(model_.left_out_o, 0);
     ASSERT_EQ(model_.survivors_push_o, stage().survivors.pushed);
     if (stage().survivors.pushed) {
       ASSERT_EQ(model_.survivors_data_o, node_bits(stage().survivors.token)) << "slot, hits, survivors, order, asked";
