@@ -7,7 +7,8 @@ set(mask_test_libraries "")
 function(mask_test_model name)
   list(TRANSFORM ARGN PREPEND -G OUTPUT_VARIABLE parameters)
   ctu_verilate(rtl_mask_test_${name} PREFIX VMaskTest${name} TOP mask_test
-    SOURCES ${mask_test_headers} ${rtl_flow_sources} ${mask_test_sources} ${rtl}/mask_test.sv ARGS ${parameters})
+    SOURCES ${mask_test_headers} ${rtl_flow_sources} ${mask_test_sources} ${rtl}/mask_test.sv
+    ARGS --x-initial unique ${parameters})
   target_compile_options(rtl_mask_test_${name} PRIVATE -O1)
   list(APPEND mask_test_libraries rtl_mask_test_${name})
   set(mask_test_libraries ${mask_test_libraries} PARENT_SCOPE)

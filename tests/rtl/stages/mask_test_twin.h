@@ -129,7 +129,7 @@ class MaskTestTwin {
   pipeline::UnitConfig config_;
   StageRun run_;
   VerilatedContext context_;
-  Model model_{&context_};
+  Model model_{from_noise(context_)};
   Seen seen_;
 };
 
