@@ -26,7 +26,11 @@ class StageRun {
  public:
   /// `stall_seed` not 0: every link refuses at random.
   StageRun(const test::World& world, const pipeline::UnitConfig& config, std::uint64_t stall_seed)
-      : feed_(world.blocks()), unit_(config, {world.image(), world.tester(), feed_}, {.seed = stall_seed}) {}
+      : StageRun(world, world.image(), config, stall_seed) {}
+  /// The same over another image of the world.
+  StageRun(const test::World& world, const accel::Image& image, const pipeline::UnitConfig& config,
+           std::uint64_t stall_seed)
+      : feed_(world.blocks()), unit_(config, {image, world.tester(), feed_}, {.seed = stall_seed}) {}
 
   pipeline::TappedUnit& unit() { return unit_; }
 
