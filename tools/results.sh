@@ -160,6 +160,7 @@ compressed_variants() {
   compressed_variant "... 2,228 strands of 31 segments, a quarter as wide" \
     "gen:hair-ball?strands=2228&segments=31&thickness=0.0005"
   compressed_variant "... of 2 segments" "gen:hair-ball?strands=2228&segments=2&thickness=0.0005"
+  compressed_variant "... and tubes of three sides" "gen:hair-ball?strands=2228&segments=2&thickness=0.0005" --sides 3
   compressed_variant "... 20,000 strands of 6 segments" "gen:hair-ball?strands=20000&segments=6"
   compressed_variant "... and tubes of three sides" "gen:hair-ball?strands=20000&segments=6" --sides 3
   echo "| *paper: Hairball* | +1.7 | | | +13.2 | | |"
