@@ -22,6 +22,7 @@ class MaskTestTwin {
   };
 
   Seen run() {
+    model_.located_valid_i = model_.load_valid_i = 0;
     reset(model_);
     load_tables();
     run_.each_cycle([&](pipeline::Cycle) {
