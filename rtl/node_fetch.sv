@@ -15,7 +15,7 @@ module node_fetch #(
     parameter int MAX_WAYS = 2,
     parameter int MAX_MSHRS = 4,
     parameter int MAX_HIT_LATENCY = 4,
-    parameter int MASK_BITS = 8,       // of a lane's mask in the image; 0: no masks
+    parameter int MASK_BITS = 8,       // of a lane's mask in the image, or its whole bytes; 0: no masks
     parameter int MAX_STRIDE = 116,    // bytes
     parameter int READ_PORTS = 1,      // stages that read nodes
     localparam int SET_BITS = MAX_SETS == 1 ? 1 : $clog2(MAX_SETS),
