@@ -63,7 +63,7 @@ class Twin {
 
  private:
   VerilatedContext context_;
-  Model model_{&context_};
+  Model model_{from_noise(context_)};
   bool inner_;
   Difference difference_;
 };

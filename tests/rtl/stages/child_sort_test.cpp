@@ -44,7 +44,7 @@ struct Compared {
 template <class Model>
 Compared compare(const test::World& world, const pipeline::UnitConfig& config, std::uint64_t stall_seed) {
   VerilatedContext context;
-  Model twin(&context);
+  Model twin(from_noise(context));
   reset(twin);
   StageRun run(world, config, stall_seed);
   auto& stage = run.unit().stages().child_sort;
@@ -113,7 +113,7 @@ template <class Model>
 std::string compare_orders(int latency) {
   constexpr std::array<float, 8> kTimes = {-3e38f, -1e-45f, -0.0f, 0.0f, 1.0f, 0x1.000002p0f, 2.0f, HUGE_VALF};
   VerilatedContext context;
-  Model twin(&context);
+  Model twin(from_noise(context));
   reset(twin);
   Difference difference;
   std::vector<pipeline::NodeToken> entered;

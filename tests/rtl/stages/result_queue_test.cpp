@@ -18,7 +18,7 @@ struct Compared {
 template <class Model>
 Compared compare(const test::World& world, const pipeline::UnitConfig& config, std::uint64_t stall_seed) {
   VerilatedContext context;
-  Model twin(&context);
+  Model twin(from_noise(context));
   twin.interval_i = static_cast<unsigned short>(config.result.interval);
   reset(twin);
   StageRun run(world, config, stall_seed);

@@ -1,7 +1,7 @@
 set(scheduler_sources ${rtl}/tokens.svh ${rtl}/arrival_queue.sv ${rtl}/next_in_turn.sv ${rtl}/scheduler.sv)
-ctu_verilate(rtl_scheduler PREFIX VScheduler TOP scheduler SOURCES ${scheduler_sources})
+ctu_verilate(rtl_scheduler PREFIX VScheduler TOP scheduler SOURCES ${scheduler_sources} ARGS --x-initial unique)
 rtl_mutants(scheduler_mutants TOP scheduler NAMES SchedulerNodesFirst SchedulerRaysFirst SchedulerLowestFirst
-  SOURCES ${scheduler_sources})
+  SOURCES ${scheduler_sources} ARGS --x-initial unique)
 ctu_test(test_rtl_scheduler
   SOURCES scheduler_test.cpp
   DEPENDS ctu_pipeline_test_support rtl_scheduler ${scheduler_mutants}

@@ -26,7 +26,7 @@ struct Compared {
 template <class Model>
 Compared compare(const test::World& world, const pipeline::UnitConfig& config, std::uint64_t stall_seed) {
   VerilatedContext context;
-  Model twin(&context);
+  Model twin(from_noise(context));
   twin.policy_round_robin_i = config.scheduler.policy == SchedulerPolicy::RoundRobin;
   reset(twin);
   StageRun run(world, config, stall_seed);
