@@ -2,7 +2,7 @@
 // takes the cells that comparators found) and ANDs it with the lane's object mask, which compressed masks fetch from the
 // compression LUT by the lane's index; or reads the answer as one bit of a row.
 //
-//   latency LATENCY, and SECOND_LATENCY more for dedup; a node whose reads do not fit the banks' ports keeps the entrance
+//   latency LATENCY, and SECOND_LATENCY more for dedup's tables on chip; a node whose reads do not fit the banks' ports keeps the entrance
 //           for more cycles (table_memory)
 //   twin    model/pipeline/mask_test.h, table_banks.h, ExecSource::mask_test (model/pipeline/exec_source.cpp)
 //
@@ -14,7 +14,8 @@
 // Keys are read in the cycle of the pop; object masks and touched cells where the rows meet them, one cycle behind the
 // last turn of reads, by the slot of that token; the indices that read the compression LUT in the cycle of the pop.
 // A host fills the tables before it lets rays in: memories are numbered and rows have the content of
-// cull::TableContent (model/cull/table_content.h).
+// cull::TableContent (model/cull/table_content.h). Rows of tables that are CACHED lie beside the node and are read like
+// object masks; there are no banks then, and no memories here.
 `include "key_fold.svh"
 `include "mask_designs.svh"
 `include "tokens.svh"
@@ -32,17 +33,26 @@ module mask_test #(
     parameter int LATENCY = 2,
     parameter int SECOND_LATENCY = 1,
     parameter int SLOT_BITS = 5,
-    // Bytes of a lane's object mask in the node: of R^3 bits, or of what the scene's largest index needs.
-    parameter int MASK_BYTES = ((ENTRIES > 1 ? $clog2(ENTRIES) : ENTRIES > 0 ? 1 : R * R * R) + 7) / 8,
+    // Bits of a lane's object mask in the image: R^3, or what the scene's largest index needs.
+    parameter int MASK_BITS = ENTRIES > 1 ? $clog2(ENTRIES) : ENTRIES > 0 ? 1 : R * R * R,
+    parameter bit CACHED = 1'b0,           // rows come with the node, from table_fetch
     // Follow from these:
     localparam int CELLS = R * R * R,
     localparam int KEY_BITS = DESIGN == `CTU_DESIGN_COMPARATORS ? CELLS : 31,
     localparam int INDEX_BITS = ENTRIES > 1 ? $clog2(ENTRIES) : 1,
-    localparam int MASK_BITS = 8 * MASK_BYTES,
     localparam bit BIT_ROWS =
         DESIGN == `CTU_DESIGN_BIT_TABLE || (DESIGN == `CTU_DESIGN_DEDUP && ENTRIES > 0),
     localparam int ROW_WIDTH = BIT_ROWS ? ENTRIES : DESIGN == `CTU_DESIGN_PROJECTION ? R * R : CELLS,
-    localparam int LOAD_BITS = ENTRIES > 0 && !BIT_ROWS ? CELLS : ROW_WIDTH > 32 ? ROW_WIDTH : 32
+    localparam int LOAD_BITS = ENTRIES > 0 && !BIT_ROWS ? CELLS : ROW_WIDTH > 32 ? ROW_WIDTH : 32,
+    // Of a lane, with CACHED: {entry of the compression LUT, rows or the byte of a bit row, mirroring of dedup's id}.
+    localparam bit HAS_LUT = ENTRIES > 0 && !BIT_ROWS,
+    localparam bit MIRRORS = DESIGN != `CTU_DESIGN_COMPARATORS && ROWS != `CTU_ROWS_ALL && !BIT_ROWS,
+    localparam int ID_MIRROR_BITS = DESIGN == `CTU_DESIGN_DEDUP && MIRRORS ? 3 : 0,
+    localparam int ROWS_OF_LANE = DESIGN == `CTU_DESIGN_PROJECTION ? 3 : 1,
+    localparam int FETCHED_ROW_BITS =
+        DESIGN == `CTU_DESIGN_COMPARATORS ? 0 : BIT_ROWS ? 8 : ROW_WIDTH * ROWS_OF_LANE,
+    localparam int FETCHED_NEEDED = ID_MIRROR_BITS + FETCHED_ROW_BITS + (HAS_LUT ? CELLS : 0),
+    localparam int FETCHED_BITS = CACHED && FETCHED_NEEDED > 0 ? FETCHED_NEEDED : 1
 ) (
     input  logic                                   clk_i,
     input  logic                                   rst_i,
@@ -57,10 +67,13 @@ module mask_test #(
     // keys {uncertain, end, begin}, or of comparators the cells touched; the first lane lowest
     output logic [                  SLOT_BITS-1:0] key_slot_o,
     input  logic [                 4*KEY_BITS-1:0] key_i,
-    // object masks or indices as they lie in the node; the first lane lowest
+    // object masks or indices; the first lane lowest
     output logic [                  SLOT_BITS-1:0] mask_slot_o,
     input  logic [                4*MASK_BITS-1:0] mask_i,
-    // tables
+    // with CACHED: what table_fetch has brought for the node; the first lane lowest
+    output logic [                  SLOT_BITS-1:0] row_slot_o,
+    input  logic [             4*FETCHED_BITS-1:0] row_i,
+    // without: the tables
     input  logic                                   load_valid_i,
     input  logic [                            1:0] load_table_i,
     input  logic [                           27:0] load_row_i,
@@ -72,10 +85,8 @@ module mask_test #(
   localparam bit IS_PROJECTION = DESIGN == `CTU_DESIGN_PROJECTION;
   localparam bit IS_DEDUP = DESIGN == `CTU_DESIGN_DEDUP;
   localparam bit IS_KEYED = DESIGN != `CTU_DESIGN_COMPARATORS;
-  localparam bit HAS_LUT = ENTRIES > 0 && !BIT_ROWS;
   // Memories that keys read; each is read by KEY_READS rows of a lane.
   localparam int KEY_TABLES = !IS_KEYED ? 0 : IS_PROJECTION ? PROJECTION_TABLES : 1;
-  localparam int ROWS_OF_LANE = IS_PROJECTION ? 3 : 1;
   localparam int READS_OF_LANE = IS_KEYED ? ROWS_OF_LANE / KEY_TABLES : 1;
   localparam int LUT_TABLE = KEY_TABLES;
   localparam int AXES = IS_PROJECTION ? 2 : 3;
@@ -85,14 +96,13 @@ module mask_test #(
       ROWS == `CTU_ROWS_ALL ? CELL_PAIRS * CELL_PAIRS * (IS_PROJECTION ? 1 : CELL_PAIRS) :
       BIT_ROWS ? `CTU_REVERSED_CLASSES(R_RAY) - (LEAVES_OUT ? `CTU_REVERSED_CLASSES(R_RAY - 2) : 0) :
       `CTU_MIRRORED_CLASSES(AXES, R_RAY, 1'b1) - (LEAVES_OUT ? `CTU_MIRRORED_CLASSES(AXES, R_RAY - 2, 1'b1) : 0);
-  localparam bit MIRRORS = IS_KEYED && ROWS != `CTU_ROWS_ALL && !BIT_ROWS;
   localparam int MIRROR_BITS = AXES * ROWS_OF_LANE;  // of a lane
   localparam int ROW_BITS = $clog2(TABLE_ROWS);
   localparam int ID_BITS = DISTINCT > 1 ? $clog2(DISTINCT) : 1;
-  localparam int ID_MIRROR_BITS = MIRRORS ? 3 : 0;
   localparam int TABLE_WIDTH = IS_DEDUP ? ID_BITS + ID_MIRROR_BITS : ROW_WIDTH;
-  localparam int LANE_BITS = ROW_WIDTH * ROWS_OF_LANE;  // what a lane's test sees
-  localparam int OBJECT_BITS = BIT_ROWS ? INDEX_BITS : CELLS;
+  // What a lane's test sees.
+  localparam int LANE_BITS = CACHED && BIT_ROWS ? 8 : ROW_WIDTH * ROWS_OF_LANE;
+  localparam int OBJECT_BITS = !BIT_ROWS ? CELLS : CACHED ? 3 : INDEX_BITS;
 
   // The token that enters.
   logic [SLOT_BITS-1:0] slot;
@@ -167,38 +177,44 @@ module mask_test #(
           );
         end
       end
-      for (genvar t = 0; t < KEY_TABLES; t++) begin : g_table
-        // Read i of a table is row i mod READS_OF_LANE, from t on, of lane i / READS_OF_LANE.
-        localparam int READS = 4 * READS_OF_LANE;
-        logic [READS-1:0] valid;
-        logic [READS*ROW_BITS-1:0] table_row;
-        logic [READS*TABLE_WIDTH-1:0] data;
-        for (genvar i = 0; i < READS; i++) begin : g_read
-          localparam int LANE = i / READS_OF_LANE;
-          localparam int ROW = ROWS_OF_LANE * LANE + t + i % READS_OF_LANE;
-          assign valid[i] = reads[LANE];
-          assign table_row[ROW_BITS*i+:ROW_BITS] = row[ROW_BITS*ROW+:ROW_BITS];
-          assign key_rows[TABLE_WIDTH*ROW+:TABLE_WIDTH] = data[TABLE_WIDTH*i+:TABLE_WIDTH];
+      if (CACHED) begin : g_fetched
+        assign key_rows = '0;
+        assign turns_of[4*KEY_TABLES-1:0] = {KEY_TABLES{4'd1}};
+        wire unused_row = &{1'b0, row};
+      end else begin : g_tables
+        for (genvar t = 0; t < KEY_TABLES; t++) begin : g_table
+          // Read i of a table is row i mod READS_OF_LANE, from t on, of lane i / READS_OF_LANE.
+          localparam int READS = 4 * READS_OF_LANE;
+          logic [READS-1:0] valid;
+          logic [READS*ROW_BITS-1:0] table_row;
+          logic [READS*TABLE_WIDTH-1:0] data;
+          for (genvar i = 0; i < READS; i++) begin : g_read
+            localparam int LANE = i / READS_OF_LANE;
+            localparam int ROW = ROWS_OF_LANE * LANE + t + i % READS_OF_LANE;
+            assign valid[i] = reads[LANE];
+            assign table_row[ROW_BITS*i+:ROW_BITS] = row[ROW_BITS*ROW+:ROW_BITS];
+            assign key_rows[TABLE_WIDTH*ROW+:TABLE_WIDTH] = data[TABLE_WIDTH*i+:TABLE_WIDTH];
+          end
+          table_memory #(
+              .ROWS(TABLE_ROWS),
+              .WIDTH(TABLE_WIDTH),
+              .READS(READS),
+              .BANKS(BANKS),
+              .PORTS(PORTS)
+          ) memory (
+              .clk_i,
+              .rst_i,
+              .enable_i(enable),
+              .load_valid_i(load_valid_i && load_table_i == 2'(t)),
+              .load_row_i(load_row_i[ROW_BITS-1:0]),
+              .load_data_i(load_data_i[TABLE_WIDTH-1:0]),
+              .start_i(enter),
+              .valid_i(valid),
+              .row_i(table_row),
+              .turns_o(turns_of[4*t+:4]),
+              .data_o(data)
+          );
         end
-        table_memory #(
-            .ROWS(TABLE_ROWS),
-            .WIDTH(TABLE_WIDTH),
-            .READS(READS),
-            .BANKS(BANKS),
-            .PORTS(PORTS)
-        ) memory (
-            .clk_i,
-            .rst_i,
-            .enable_i(enable),
-            .load_valid_i(load_valid_i && load_table_i == 2'(t)),
-            .load_row_i(load_row_i[ROW_BITS-1:0]),
-            .load_data_i(load_data_i[TABLE_WIDTH-1:0]),
-            .start_i(enter),
-            .valid_i(valid),
-            .row_i(table_row),
-            .turns_o(turns_of[4*t+:4]),
-            .data_o(data)
-        );
       end
       assign key_slot_o = slot;
     end else begin : g_cells
@@ -217,7 +233,13 @@ module mask_test #(
     for (genvar lane = 0; lane < 4; lane++) begin : g_index
       assign index[INDEX_BITS*lane+:INDEX_BITS] = INDEX_BITS'(mask_i[MASK_BITS*lane+:MASK_BITS]);
     end
-    if (HAS_LUT) begin : g_lut
+    if (HAS_LUT && CACHED) begin : g_fetched_lut
+      for (genvar lane = 0; lane < 4; lane++) begin : g_object
+        assign objects[CELLS*lane+:CELLS] = row_i[FETCHED_BITS*(lane+1)-CELLS+:CELLS];
+      end
+      assign turns_of[4*KEY_TABLES+:4] = 4'd1;
+      assign mask_slot_o = tested_slot;
+    end else if (HAS_LUT) begin : g_lut
       table_memory #(
           .ROWS(ENTRIES),
           .WIDTH(CELLS),
@@ -241,7 +263,7 @@ module mask_test #(
     end else begin : g_no_lut
       for (genvar lane = 0; lane < 4; lane++) begin : g_object
         if (BIT_ROWS) begin : g_bit
-          assign objects[OBJECT_BITS*lane+:OBJECT_BITS] = index[INDEX_BITS*lane+:INDEX_BITS];
+          assign objects[OBJECT_BITS*lane+:OBJECT_BITS] = OBJECT_BITS'(index[INDEX_BITS*lane+:INDEX_BITS]);
         end else begin : g_mask
           assign objects[OBJECT_BITS*lane+:OBJECT_BITS] = mask_i[MASK_BITS*lane+:OBJECT_BITS];
         end
@@ -250,13 +272,14 @@ module mask_test #(
       assign mask_slot_o = tested_slot;
     end
   endgenerate
-  wire unused_tables = &{1'b0, load_valid_i, load_table_i, load_row_i, load_data_i, mask_i, index};
+  wire unused_tables = &{1'b0, load_valid_i, load_table_i, load_row_i, load_data_i, mask_i, index, row_i};
+  assign row_slot_o = tested_slot;
 
   // The pipeline, and what of the rows a lane's test sees.
   logic [4*LANE_BITS-1:0] rows;
   logic exit;
   generate
-    if (IS_DEDUP) begin : g_twice
+    if (IS_DEDUP && !CACHED) begin : g_twice
       // First the ids, then what they number.
       logic [3:0] rest_q;  // turns that the ids still take, this one's included
       logic there_q;  // they stand in the first memory's register
@@ -329,8 +352,22 @@ module mask_test #(
       );
     end else begin : g_once
       logic unused_exit_valid, unused_start;
-      assign rows = key_rows;
-      assign tested = info_q;
+      if (CACHED && IS_KEYED) begin : g_fetched
+        for (genvar lane = 0; lane < 4; lane++) begin : g_lane
+          assign rows[LANE_BITS*lane+:LANE_BITS] = row_i[FETCHED_BITS*lane+ID_MIRROR_BITS+:LANE_BITS];
+        end
+        wire unused_key_rows = &{1'b0, key_rows};
+      end else begin : g_read
+        assign rows = key_rows;
+      end
+      if (CACHED && ID_MIRROR_BITS > 0) begin : g_mirrored
+        for (genvar lane = 0; lane < 4; lane++) begin : g_lane
+          assign tested[8+SLOT_BITS+3*lane+:3] = info_q[8+SLOT_BITS+3*lane+:3] ^ row_i[FETCHED_BITS*lane+:3];
+        end
+        assign tested[8+SLOT_BITS-1:0] = info_q[8+SLOT_BITS-1:0];
+      end else begin : g_as_it_is
+        assign tested = info_q;
+      end
       pipe_control #(
           .LATENCY(LATENCY),
           .OCCUPIES_BITS(4)
@@ -377,7 +414,7 @@ module mask_test #(
   logic [3:0] hits_out, survivors_out;
   pipe_row #(
       .WIDTH(SLOT_BITS + 8),
-      .DEPTH(IS_DEDUP ? LATENCY + SECOND_LATENCY - 2 : LATENCY - 1)
+      .DEPTH(IS_DEDUP && !CACHED ? LATENCY + SECOND_LATENCY - 2 : LATENCY - 1)
   ) row_answer (
       .clk_i,
       .enable_i(enable),

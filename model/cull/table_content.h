@@ -1,8 +1,8 @@
 // What the rows of a design's tables hold: what a host writes into the memories of the unit in gates.
 //
 // Memories and rows are those of OnChipTables. Where keys are folded by mirroring, a row holds the mask of the key that
-// the fold calls canonical; the three lowest bits of an id then say on which axes the mask that the bits above number is
-// to be mirrored to give that of the canonical key.
+// the fold calls canonical; the three lowest bits of an id then say on which axes the mask that the bits above number
+// is to be mirrored to give that of the canonical key.
 #pragma once
 
 #include <cstdint>

@@ -5,16 +5,19 @@
 #include <string>
 
 #include "VMaskTestBitTable.h"
+#include "VMaskTestBitTableCached.h"
 #include "VMaskTestBitTableReachable.h"
 #include "VMaskTestComparators.h"
 #include "VMaskTestComparatorsCompressed.h"
 #include "VMaskTestDedup.h"
+#include "VMaskTestDedupCached.h"
 #include "VMaskTestDedupCompressed.h"
 #include "VMaskTestDedupFolded.h"
 #include "VMaskTestMaskLut.h"
 #include "VMaskTestMaskLutReachable.h"
 #include "VMaskTestOneProjection.h"
 #include "VMaskTestProjection.h"
+#include "VMaskTestProjectionCached.h"
 #include "VMaskTestProjectionCompressed.h"
 #include "VMaskTestProjectionFolded.h"
 #include "tests/oracle/seed.h"
@@ -33,6 +36,7 @@ struct Variant {
   int banks = 4, ports = 1, latency = 2, second_latency = 1, projection_tables = 3;
   TableRows rows = TableRows::All;
   std::uint32_t distinct = 1270;
+  int table_cache_bytes = 0;
   const char* scene = "gen:hair-ball?strands=60";
 
   pipeline::UnitConfig config(const test::World& world) const {
@@ -43,6 +47,7 @@ struct Variant {
     config.mask_test.second_latency = second_latency;
     config.mask_test.projection_tables = projection_tables;
     config.mask_test.rows = rows;
+    config.table_cache.bytes = table_cache_bytes;
     config.cell_locate.units = config.comparators.units = 4;  // a node each cycle, so that nodes meet
     return config;
   }
@@ -55,6 +60,10 @@ void expect_equal(const Variant& variant, bool has_conflicts) {
   const test::World any_rays(variant.scene, variant.design, 150, variant.options);
   // Rays that every kind of rows serves.
   const test::World world(any_rays.tree(), variant.design, rays_from_outside(any_rays), variant.options);
+  if (variant.options.entries != 0) {
+    ASSERT_EQ(world.image().layout.mask_bits, std::bit_width(static_cast<unsigned>(variant.options.entries - 1)))
+        << "MASK_BITS";
+  }
   if (variant.design == Design::Dedup) {
     const cull::OnChipTables tables(world.tester(), variant.rows, variant.projection_tables);
     ASSERT_LE(tables.tables()[1].rows, variant.distinct);
@@ -136,6 +145,26 @@ TEST(RtlMaskTest, bit_rows_of_reachable_keys) {
   expect_equal<VMaskTestBitTableReachable>(
       {.design = Design::BitTable, .options = {.ray_resolution = 5, .entries = 64}, .rows = TableRows::Reachable},
       true);
+}
+TEST(RtlMaskTest, cached_projections_come_with_the_node) {
+  expect_equal<VMaskTestProjectionCached>(
+      {.design = Design::Projection, .options = {.entries = 64}, .table_cache_bytes = 4096}, false);
+}
+TEST(RtlMaskTest, cached_numbered_masks_come_with_how_they_are_mirrored) {
+  expect_equal<VMaskTestDedupCached>({.design = Design::Dedup,
+                                      .options = {.ray_resolution = 5},
+                                      .latency = 1,
+                                      .rows = TableRows::Folded,
+                                      .table_cache_bytes = 4096},
+                                     false);
+}
+TEST(RtlMaskTest, cached_bit_rows_come_as_the_byte_with_the_bit) {
+  expect_equal<VMaskTestBitTableCached>({.design = Design::BitTable,
+                                         .options = {.ray_resolution = 5, .entries = 64},
+                                         .latency = 3,
+                                         .rows = TableRows::Reachable,
+                                         .table_cache_bytes = 4096},
+                                        false);
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
+#include <string>
+
 #include "model/accel/image.h"
 #include "model/cull/table_content.h"
 #include "tests/rtl/stages/ports.h"
@@ -14,7 +17,11 @@ template <class Model>
 class MaskTestTwin {
  public:
   MaskTestTwin(const test::World& world, const pipeline::UnitConfig& config, std::uint64_t stall_seed)
-      : world_(world), config_(config), run_(world, config, stall_seed) {}
+      : world_(world),
+        config_(config),
+        on_chip_(world.tester(), config.mask_test.rows, config.mask_test.projection_tables),
+        content_(world.tester(), config.mask_test.rows, config.mask_test.projection_tables),
+        run_(world, config, stall_seed) {}
 
   /// What the run has seen, for tests that want it to have seen something.
   struct Seen {
@@ -24,7 +31,7 @@ class MaskTestTwin {
   Seen run() {
     model_.located_valid_i = model_.load_valid_i = 0;
     reset(model_);
-    load_tables();
+    if (config_.table_cache.bytes == 0) load_tables();
     run_.each_cycle([&](pipeline::Cycle) {
       drive();
       compare();
@@ -40,15 +47,14 @@ class MaskTestTwin {
   auto& stage() { return *run_.unit().stages().mask_test; }
 
   void load_tables() {
-    const cull::TableContent content(world_.tester(), config_.mask_test.rows, config_.mask_test.projection_tables);
     Words data(words_of<std::remove_reference_t<decltype(model_.load_data_i)>>());
     model_.load_valid_i = 1;
-    for (std::size_t table = 0; table < content.tables().size(); ++table)
-      for (std::uint64_t row = 0; row < content.tables()[table].rows; ++row) {
+    for (std::size_t table = 0; table < content_.tables().size(); ++table)
+      for (std::uint64_t row = 0; row < content_.tables()[table].rows; ++row) {
         model_.load_table_i = static_cast<std::uint8_t>(table);
         model_.load_row_i = static_cast<std::uint32_t>(row);
-        const std::uint64_t* const bits = content.row(table, row);
-        for (std::size_t word = 0; word < 2 * content.words(table) && word < data.size(); ++word)
+        const std::uint64_t* const bits = content_.row(table, row);
+        for (std::size_t word = 0; word < 2 * content_.words(table) && word < data.size(); ++word)
           data[word] = static_cast<std::uint32_t>(bits[word / 2] >> (32 * (word % 2)));
         set_port(model_.load_data_i, data);
         clock(model_);
@@ -65,6 +71,7 @@ class MaskTestTwin {
     // The register files answer in the same cycle.
     set_port(model_.key_i, key_words(model_.key_slot_o));
     set_port(model_.mask_i, mask_words(model_.mask_slot_o));
+    if (config_.table_cache.bytes > 0) set_port(model_.row_i, row_words(model_.row_slot_o));
     model_.eval();
   }
 
@@ -97,37 +104,73 @@ class MaskTestTwin {
     Words words(words_of<std::remove_reference_t<decltype(model_.key_i)>>());
     BitWriter writer(words.data());
     const auto* const r = registers(slot);
-    const int r3 = mask_bits();
+    const std::uint32_t r3 = mask_bits();
     for (int lane = 0; r != nullptr && lane < intersect::kLanes; ++lane) {
       if (config_.mask_test.design == cull::Design::Comparators)
-        for (int bit = 0; bit < r3; ++bit) writer.put(r->touched[lane][bit / 64] >> (bit % 64) & 1, 1);
+        put(writer, r->touched[lane], r3);
       else
         writer.put(r->key[lane], 30).put(r->key[lane] >> 31, 1);
     }
     return words;
   }
 
+  /// Object masks or indices; none of nodes that carry none.
+  std::vector<std::uint64_t> object_mask(const pipeline::ExecSource::Registers& r, int lane) const {
+    std::vector<std::uint64_t> mask(pipeline::ExecSource::kMaxWords);
+    const bool is_there = !accel::is_leaf(r.step.ref) && r.step.ref < world_.image().masked_nodes();
+    if (is_there) accel::read_mask(world_.image(), r.step.ref, lane, mask.data());
+    return mask;
+  }
+
   Words mask_words(unsigned slot) {
     Words words(words_of<std::remove_reference_t<decltype(model_.mask_i)>>());
     BitWriter writer(words.data());
     const auto* const r = registers(slot);
-    if (r == nullptr || accel::is_leaf(r->step.ref) || r->step.ref >= world_.image().masked_nodes()) return words;
-    const int bits = static_cast<int>(8 * accel::mask_bytes(world_.image().layout));
-    for (int lane = 0; lane < intersect::kLanes; ++lane) {
-      std::uint64_t mask[pipeline::ExecSource::kMaxWords] = {};
-      accel::read_mask(world_.image(), r->step.ref, lane, mask);
-      for (int bit = 0; bit < bits; ++bit) writer.put(mask[bit / 64] >> (bit % 64) & 1, 1);
+    for (int lane = 0; r != nullptr && lane < intersect::kLanes; ++lane)
+      put(writer, object_mask(*r, lane).data(), world_.image().layout.mask_bits);
+    return words;
+  }
+
+  /// What table_fetch has brought for the lanes: all of what they read but the numbers of ids.
+  Words row_words(unsigned slot) {
+    Words words(words_of<std::remove_reference_t<decltype(model_.row_i)>>());
+    BitWriter writer(words.data());
+    const auto* const r = registers(slot);
+    const bool compressed = world_.tester().compression_lut() != nullptr;
+    const bool mirrors = config_.mask_test.rows != cull::TableRows::All && !compressed;
+    for (int lane = 0; r != nullptr && lane < intersect::kLanes; ++lane) {
+      const auto index = compressed ? static_cast<std::uint32_t>(object_mask(*r, lane)[0]) : 0;
+      cull::TableRead reads[cull::kMaxReadsOfLane];
+      const cull::CellKey key{r->key[lane]};
+      int count = key.uncertain() ? -1 : on_chip_.reads(key, index, reads);
+      if (count < 0) count = on_chip_.reads({}, index, reads);  // no question: anything may stand there
+      for (const cull::TableRead& read : std::span(reads, static_cast<std::size_t>(count))) {
+        const std::uint64_t* const row = content_.row(read.table, read.row);
+        const std::string& name = content_.tables()[read.table].name;
+        if (name == "ids")
+          writer.put(*row, mirrors ? 3 : 0);
+        else if (name == "bit rows" || name == "bit table")
+          writer.put(row[index / 64] >> (index % 64 / 8 * 8), 8);
+        else
+          put(writer, row, content_.tables()[read.table].row_bits);
+      }
     }
     return words;
   }
 
-  int mask_bits() const {
-    const int r = world_.tester().options().resolution;
+  static void put(BitWriter& writer, const std::uint64_t* words, std::uint32_t bits) {
+    for (std::uint32_t bit = 0; bit < bits; ++bit) writer.put(words[bit / 64] >> (bit % 64) & 1, 1);
+  }
+
+  std::uint32_t mask_bits() const {
+    const auto r = static_cast<std::uint32_t>(world_.tester().options().resolution);
     return r * r * r;
   }
 
   const test::World& world_;
   pipeline::UnitConfig config_;
+  cull::OnChipTables on_chip_;
+  cull::TableContent content_;
   StageRun run_;
   VerilatedContext context_;
   Model model_{from_noise(context_)};
