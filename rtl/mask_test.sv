@@ -1,9 +1,9 @@
-// mask_test: does the ray touch an occupied cell? Reads what the design's tables hold for the key of each lane asked (or
-// takes the cells that comparators found) and ANDs it with the lane's object mask, which compressed masks fetch from the
-// compression LUT by the lane's index; or reads the answer as one bit of a row.
+// mask_test: does the ray touch an occupied cell? Reads what the design's tables hold for the key of each lane asked
+// (or takes the cells that comparators found) and ANDs it with the lane's object mask, which compressed masks fetch
+// from the compression LUT by the lane's index; or reads the answer as one bit of a row.
 //
-//   latency LATENCY, and SECOND_LATENCY more for dedup's tables on chip; a node whose reads do not fit the banks' ports keeps the entrance
-//           for more cycles (table_memory)
+//   latency LATENCY, and SECOND_LATENCY more for dedup's tables on chip; a node whose reads do not fit the banks' ports
+//           keeps the entrance for more cycles (table_memory)
 //   twin    model/pipeline/mask_test.h, table_banks.h, ExecSource::mask_test (model/pipeline/exec_source.cpp)
 //
 // Lanes not asked and lanes whose key is uncertain survive without a read. The rows stand in the first register of
@@ -117,8 +117,8 @@ module mask_test #(
   assign left_out_o = enter && (reads & left_out) != 4'd0;
   wire unused_fields = &{1'b0, located_data_i[15:4]};
 
-  // What travels with its reads, and stands beside the rows when they are there: {how rows are mirrored, slot, hits, lanes
-  // with a question}.
+  // What travels with its reads, and stands beside the rows when they are there: {how rows are mirrored, slot, hits,
+  // lanes with a question}.
   localparam int INFO_BITS = 4 * MIRROR_BITS + SLOT_BITS + 8;
   logic [4*MIRROR_BITS-1:0] mirror;
   logic [INFO_BITS-1:0] info_q, tested;

@@ -4,10 +4,10 @@
 //   twin    MirrorFold::fold (model/cull/key_fold.h)
 //
 // (1) A pair (begin, end) of an axis that does not ascend is mirrored: c becomes R_RAY - 1 - c. (2) The last axis whose
-// pair is not its own mirrored reverse decides: where its begin and end, mirrored so, add up to more than R_RAY - 1, begin
-// and end of all axes change places before (1). (3) Row = the sum of a number from each axis, last axis first, each from a
-// table of constants by the pair and by what the axes before have shown: whether one of them has decided, and whether
-// all had inner cells only.
+// pair is not its own mirrored reverse decides: where its begin and end, mirrored so, add up to more than R_RAY - 1,
+// begin and end of all axes change places before (1). (3) Row = the sum of a number from each axis, last axis first,
+// each from a table of constants by the pair and by what the axes before have shown: whether one of them has decided,
+// and whether all had inner cells only.
 `include "key_fold.svh"
 
 module mirror_fold #(

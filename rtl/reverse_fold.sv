@@ -3,8 +3,8 @@
 //   combinational
 //   twin    ReverseFold::row (model/cull/key_fold.h)
 //
-// Each cell has a number c, inner cells first. Of a key's two cells the one with the larger number, l, and the other, s,
-// give row l (l + 1) / 2 + s, less the rows left out: those of two inner cells.
+// Each cell has a number c, inner cells first. Of a key's two cells the one with the larger number, l, and the other,
+// s, give row l (l + 1) / 2 + s, less the rows left out: those of two inner cells.
 `include "key_fold.svh"
 
 module reverse_fold #(

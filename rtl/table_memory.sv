@@ -1,11 +1,11 @@
 // table_memory: one memory of a mask test's tables, in banks, with the reads that the lanes of a node make at once.
 //
-//   latency turns_o: the rows of reads that start in cycle t stand at data_o in cycle t + turns_o, and stay until the next
-//           start, which can come in that cycle; enable_i stops all of it
+//   latency turns_o: the rows of reads that start in cycle t stand at data_o in cycle t + turns_o, and stay until the
+//           next start, which can come in that cycle; enable_i stops all of it
 //   twin    a memory of TableBanks (model/pipeline/table_banks.h)
 //
-// Each read is served at a turn and port of its bank (table_turns); the first turn is the cycle of start_i, and what later
-// ones read is kept. Rows of an early turn are kept beside the banks until the last one is there.
+// Each read is served at a turn and port of its bank (table_turns); the first turn is the cycle of start_i, and what
+// later ones read is kept. Rows of an early turn are kept beside the banks until the last one is there.
 module table_memory #(
     parameter int ROWS = 256,
     parameter int WIDTH = 16,
@@ -20,7 +20,7 @@ module table_memory #(
     input  logic                      load_valid_i,
     input  logic [      ROW_BITS-1:0] load_row_i,
     input  logic [         WIDTH-1:0] load_data_i,
-    input  logic                      start_i,       // only with enable_i, and when the reads before have had their turns
+    input  logic                      start_i,       // only with enable_i, and behind the turns of the reads before
     input  logic [         READS-1:0] valid_i,
     input  logic [ROW_BITS*READS-1:0] row_i,
     output logic [               3:0] turns_o,       // that the reads at valid_i take, at least 1

@@ -3,8 +3,8 @@
 //   combinational
 //   twin    TableBanks::add and turns (model/pipeline/table_banks.cpp)
 //
-// Row r lies in bank r mod BANKS, and a bank serves PORTS reads a turn, in the order of the reads. Reads of the same row
-// share one.
+// Row r lies in bank r mod BANKS, and a bank serves PORTS reads a turn, in the order of the reads. Reads of the same
+// row share one.
 module table_turns #(
     parameter int READS = 4,
     parameter int ROW_BITS = 8,

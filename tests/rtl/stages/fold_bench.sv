@@ -1,5 +1,5 @@
-// Each fold of keys for R_RAY 2 to LONGEST, on the same key: rows without and with those of inner cells left out, and of
-// the projection on x and y.
+// Each fold of keys for R_RAY 2 to LONGEST, on the same key: rows without and with those of inner cells left out, and
+// of the projection on x and y.
 module fold_bench #(
     parameter int LONGEST = 9
 ) (

@@ -20,7 +20,8 @@ mask_test_model(MaskLut DESIGN=2 R=4 R_RAY=4 BANKS=1 PORTS=1 LATENCY=1)
 mask_test_model(Comparators DESIGN=6 R=4 LATENCY=2)
 mask_test_model(Dedup DESIGN=4 R=4 R_RAY=4 DISTINCT=1270 BANKS=1 PORTS=2 LATENCY=1 SECOND_LATENCY=1)
 mask_test_model(BitTable DESIGN=3 R=4 R_RAY=4 ENTRIES=300 MASK_BITS=6 BANKS=2 PORTS=1 LATENCY=2)
-mask_test_model(DedupCompressed DESIGN=4 R=3 R_RAY=5 ENTRIES=300 DISTINCT=2500 BANKS=2 PORTS=1 LATENCY=2 SECOND_LATENCY=3)
+mask_test_model(DedupCompressed DESIGN=4 R=3 R_RAY=5 ENTRIES=300 DISTINCT=2500 BANKS=2 PORTS=1 LATENCY=2
+  SECOND_LATENCY=3)
 mask_test_model(ProjectionCompressed DESIGN=5 R=6 R_RAY=6 ENTRIES=256 BANKS=8 PORTS=1 LATENCY=2)
 mask_test_model(ComparatorsCompressed DESIGN=6 R=4 ENTRIES=32 BANKS=1 PORTS=1 LATENCY=3)
 mask_test_model(ProjectionFolded DESIGN=5 R=3 R_RAY=5 ROWS=1)
@@ -65,5 +66,5 @@ rtl_check(mask_test ${mask_test_checked} VARIANT bit-table.reachable PARAMETERS 
 rtl_check(mask_test ${mask_test_checked} VARIANT dedup.folded PARAMETERS R=2 R_RAY=3 ROWS=1 DESIGN=4 DISTINCT=50)
 rtl_check(mask_test ${mask_test_checked} VARIANT dedup.cached PARAMETERS R=2 R_RAY=3 ROWS=1 DESIGN=4 CACHED=1'b1)
 rtl_check(mask_test ${mask_test_checked} VARIANT projection.folded PARAMETERS R=2 R_RAY=3 ROWS=1)
-rtl_check(mask_test ${mask_test_checked} VARIANT projection.compressed PARAMETERS ${small} DESIGN=5 ENTRIES=20 BANKS=1 PORTS=3
-  PROJECTION_TABLES=1)
+rtl_check(mask_test ${mask_test_checked} VARIANT projection.compressed
+  PARAMETERS ${small} DESIGN=5 ENTRIES=20 BANKS=1 PORTS=3 PROJECTION_TABLES=1)
