@@ -86,7 +86,7 @@ module float_fraction #(
       .clk_i,
       .enable_i,
 `ifdef CTU_MUTATE_FRACTION_STICKY
-      .data_i({placed[51:27], placed[26:5] != 22'd0, exponent, sign_q1, infinite_q1, nan_q1}),
+      .data_i({placed[51:27], 1'b0, exponent, sign_q1, infinite_q1, nan_q1}),
 `else
       .data_i({placed[51:27], placed[26:0] != 27'd0, exponent, sign_q1, infinite_q1, nan_q1}),
 `endif

@@ -21,6 +21,18 @@ ctu_test(test_rtl_cell_locate
     rtl_cell_locate_masks_3 ${cell_locate_mutants}
   LABEL property)
 
+# The lanes by themselves, of several resolutions side by side, and broken ones.
+set(locate_lanes_bench ${keep_modules} ${CMAKE_CURRENT_SOURCE_DIR}/locate_lanes_bench.sv)
+list(APPEND locate_lanes_bench ${locate_lane_sources} ${rtl}/comparator_axis.sv ${rtl}/comparator_lane.sv)
+ctu_verilate(rtl_locate_lanes PREFIX VLocateLanes TOP locate_lanes_bench SOURCES ${locate_lanes_bench})
+rtl_mutants(locate_lane_mutants TOP locate_lanes_bench NAMES WeightInwards FractionSticky PlanesMetArePassed FlatBox
+  NoColumn CellsNeverTouched KeysOfZeros
+  SOURCES ${locate_lanes_bench} ARGS -GFEW=1'b1)
+ctu_test(test_rtl_locate_lanes
+  SOURCES locate_lanes_test.cpp ../../intersect/hostile_boxes.cpp
+  DEPENDS ctu_cull ctu_intersect ctu_oracle rtl_locate_lanes ${locate_lane_mutants}
+  LABEL property)
+
 # What these are made of is checked within them.
 rtl_check(float_fraction SOURCES ${rtl_float_sources} ${rtl}/float/float_fraction.sv)
 rtl_check(float_key SOURCES ${rtl}/float/float_key.sv)
