@@ -1,5 +1,6 @@
 #include "traces/validate_block.h"
 
+#include <array>
 #include <bit>
 #include <vector>
 
@@ -13,7 +14,26 @@ namespace {
 
 using reference::Step;
 
-/// Follows one ray after the other.
+constexpr unsigned kNoOrder = 16;  // more than any set of lanes
+
+/// By number of survivors and order byte: the set of lanes in that order, or kNoOrder where one is twice or too many
+/// are named.
+constexpr auto kLanesInOrder = [] {
+  std::array<std::array<std::uint8_t, 256>, intersect::kLanes + 1> table{};
+  for (unsigned count = 0; count < table.size(); ++count)
+    for (unsigned order = 0; order < 256; ++order) {
+      unsigned lanes = order >> (2 * count) != 0 ? kNoOrder : 0;
+      for (unsigned i = 0; i < count; ++i) {
+        const unsigned lane = 1u << (order >> (2 * i) & 3u);
+        lanes |= (lanes & lane) != 0 ? kNoOrder : lane;
+      }
+      table[count][order] = static_cast<std::uint8_t>(lanes);
+    }
+  return table;
+}();
+
+/// Follows one ray after the other. Every recorded step comes by here, so a node branches on nothing but what is wrong
+/// with it.
 class Follower {
  public:
   Follower(const accel::Bvh4& bvh, const cull::MaskOptions& masks, const std::string& path)
@@ -28,7 +48,8 @@ class Follower {
       if (list.tail_dropped[index] != 0) refuse("entries are dropped from an empty stack");
       return;
     }
-    stack_.assign(1, 0);
+    stack_[0] = 0;
+    depth_ = 1;
     bool found = false;
     for (std::uint64_t i = first; i < last; ++i) {
       const Step& step = list.steps[i];
@@ -39,16 +60,22 @@ class Follower {
       else
         node(step);
     }
-    if (list.tail_dropped[index] != (found ? 0 : stack_.size())) refuse("entries are left on the stack at the end");
+    if (list.tail_dropped[index] != (found ? 0 : depth_)) refuse("entries are left on the stack at the end");
   }
 
-  void check_key(std::uint32_t packed) const {
-    const cull::CellKey key{packed};
-    if (key.uncertain()) return;  // it says nothing and is not looked up
-    if ((packed >> 30) != 0) refuse("a key has bits that mean nothing");
-    for (int axis = 0; axis < 3; ++axis)
-      if (key.begin(axis) >= masks_.ray_resolution || key.end(axis) >= masks_.ray_resolution)
-        refuse(fmt::format("a key lies outside the grid of R_ray = {}", masks_.ray_resolution));
+  void check_keys(const std::vector<std::uint32_t>& keys) const {
+    bool meaningless = false, outside = false;
+    for (const std::uint32_t packed : keys) {  // without branches it becomes vector instructions
+      const cull::CellKey key{packed};
+      const bool asked = !key.uncertain();  // an uncertain one says nothing and is not looked up
+      bool beyond = false;
+      for (int axis = 0; axis < 3; ++axis)
+        beyond |= (key.begin(axis) >= masks_.ray_resolution) | (key.end(axis) >= masks_.ray_resolution);
+      meaningless |= asked & ((packed >> 30) != 0);
+      outside |= asked & beyond;
+    }
+    if (meaningless) refuse("a key has bits that mean nothing");
+    if (outside) refuse(fmt::format("a key lies outside the grid of R_ray = {}", masks_.ray_resolution));
   }
 
  private:
@@ -57,10 +84,9 @@ class Follower {
   }
 
   void pop(const Step& step) {
-    if (stack_.size() <= step.dropped) refuse("the stack has no entry left");
-    stack_.resize(stack_.size() - step.dropped);
-    if (stack_.back() != step.ref) refuse("a visit is not what lies on the stack");
-    stack_.pop_back();
+    if (depth_ <= step.dropped) refuse("the stack has no entry left");
+    depth_ -= step.dropped + std::size_t{1};
+    if (stack_[depth_] != step.ref) refuse("a visit is not what lies on the stack");
   }
 
   void node(const Step& step) {
@@ -68,15 +94,19 @@ class Follower {
     const unsigned survivors = step.survivors();
     if ((survivors & ~step.box_hits()) != 0) refuse("a lane survives that the box test missed");
     if ((step.uncertain() & ~survivors) != 0 || (step.detail >> 12) != 0) refuse("an uncertain lane does not survive");
+    unsigned empty = 0;
     for (int lane = 0; lane < intersect::kLanes; ++lane)
-      if (((step.box_hits() >> lane) & 1u) != 0 && node.child[lane] == accel::kEmptyChild)
-        refuse("an empty lane is hit");
-    const int count = std::popcount(survivors);
-    unsigned ordered = 0;
-    for (int i = 0; i < count; ++i) ordered |= 1u << step.survivor(i);
-    if (ordered != survivors || (step.detail & 0xFFu) >> (2 * count) != 0)
-      refuse("the order is not one of the survivors");
-    for (int i = count - 1; i >= 0; --i) stack_.push_back(node.child[step.survivor(i)]);
+      empty |= unsigned{node.child[lane] == accel::kEmptyChild} << lane;
+    if ((step.box_hits() & empty) != 0) refuse("an empty lane is hit");
+    const unsigned count = static_cast<unsigned>(std::popcount(survivors)), order = step.detail & 0xFFu;
+    if (kLanesInOrder[count][order] != survivors) refuse("the order is not one of the survivors");
+    if (stack_.size() < depth_ + intersect::kLanes) stack_.resize(2 * stack_.size());
+    // Farthest first; of four entries written those behind the last survivor do not count.
+    const unsigned farthest_first = order << (2 * (intersect::kLanes - count));
+    for (int i = 0; i < intersect::kLanes; ++i)
+      stack_[depth_ + static_cast<std::size_t>(i)] =
+          node.child[farthest_first >> (2 * (intersect::kLanes - 1 - i)) & 3u];
+    depth_ += count;
   }
 
   bool leaf(const Step& step) const {
@@ -90,7 +120,8 @@ class Follower {
   const cull::MaskOptions& masks_;
   const std::string& path_;
   std::uint64_t ray_ = 0;
-  std::vector<accel::ChildRef> stack_;
+  std::vector<accel::ChildRef> stack_ = std::vector<accel::ChildRef>(64);
+  std::size_t depth_ = 0;  ///< entries on it
 };
 
 }  // namespace
@@ -100,7 +131,7 @@ void validate_block(const reference::RayBlock& block, const accel::Bvh4& bvh, co
   if (block.steps.rays() == 0) return;
   Follower follower(bvh, masks, path);
   for (std::uint64_t ray = 0; ray < block.rays.size(); ++ray) follower.follow(block, ray);
-  for (const std::uint32_t key : block.steps.keys) follower.check_key(key);
+  follower.check_keys(block.steps.keys);
 }
 
 }  // namespace ctu::traces

@@ -18,19 +18,24 @@ namespace ctu::pipeline {
 struct Context {
   std::uint64_t ray = 0;  ///< number in the whole trace
   std::shared_ptr<const reference::RayBlock> block;
-  std::uint32_t index = 0;       ///< of the ray in its block
-  std::uint32_t visits = 0;      ///< nodes and leaves visited so far
-  Cycle entered = 0, since = 0;  ///< cycle it took the context; cycle it came to `place`
-  Place place = Place::RaySetup;
+  std::uint32_t index = 0;   ///< of the ray in its block
+  std::uint32_t visits = 0;  ///< nodes and leaves visited so far
+  Cycle entered = 0;         ///< cycle it took the context
   bool any_hit = false;
   bool in_flight = false;
   std::uint16_t depth = 0;    ///< stack entries, spilled ones included
   std::uint16_t spilled = 0;  ///< of those, how many lie in memory (the oldest)
 };
 
+/// Where a ray is, and since which cycle.
+struct Stay {
+  Cycle since = 0;
+  Place place = Place::RaySetup;
+};
+
 class Contexts {
  public:
-  explicit Contexts(int count) : contexts_(static_cast<std::size_t>(count)) {}
+  explicit Contexts(int count) : contexts_(static_cast<std::size_t>(count)), stays_(contexts_.size()) {}
 
   int count() const { return static_cast<int>(contexts_.size()); }
   Context& operator[](int slot) { return contexts_[static_cast<std::size_t>(slot)]; }
@@ -38,23 +43,26 @@ class Contexts {
 
   void occupy(int slot, Cycle now) {
     Context& context = (*this)[slot];
-    context.entered = context.since = now;
-    context.place = Place::RaySetup;
+    context.entered = now;
+    stay(slot) = {now, Place::RaySetup};
     context.in_flight = true;
     change_occupancy(now, +1);
     if (occupied_ > most_occupied_) most_occupied_ = occupied_;
   }
   /// The ray comes to `place`; the cycles since the last change are charged to where it was.
   void move(int slot, Cycle now, Place place) {
-    Context& context = (*this)[slot];
-    cycles_[static_cast<int>(context.place)] += now - context.since;
-    context.since = now;
-    context.place = place;
+    Stay& stay = this->stay(slot);
+    charge(stay.place, now - stay.since);
+    stay = {now, place};
   }
+  /// Cycles of rays that are charged otherwise than by move().
+  void charge(Place place, Cycle cycles) { cycles_[static_cast<int>(place)] += cycles; }
+  Stay& stay(int slot) { return stays_[static_cast<std::size_t>(slot)]; }
+  const Stay& stay(int slot) const { return stays_[static_cast<std::size_t>(slot)]; }
   /// The ray leaves; its time in the unit, in cycles.
   std::uint64_t release(int slot, Cycle now) {
     Context& context = (*this)[slot];
-    cycles_[static_cast<int>(context.place)] += now - context.since;
+    charge(stay(slot).place, now - stay(slot).since);
     context.in_flight = false;
     change_occupancy(now, -1);
     latency_sum_ += now - context.entered;
@@ -76,6 +84,7 @@ class Contexts {
   }
 
   std::vector<Context> contexts_;
+  std::vector<Stay> stays_;  ///< by context; apart because every stage writes them
   std::array<std::uint64_t, kPlaces> cycles_{};
   std::uint64_t latency_sum_ = 0, occupied_cycles_ = 0;
   Cycle occupied_since_ = 0;

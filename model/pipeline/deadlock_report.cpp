@@ -7,14 +7,17 @@ namespace ctu::pipeline {
 std::string deadlock_report(Cycle now, Cycle last_moved, const Probes& probes, const Contexts& contexts) {
   std::string text = fmt::format("deadlock: nothing moved from cycle {} to {}\n", last_moved, now);
   const Context* oldest = nullptr;
+  Stay stay;
   for (int slot = 0; slot < contexts.count(); ++slot) {
     const Context& context = contexts[slot];
-    if (context.in_flight && (oldest == nullptr || context.ray < oldest->ray)) oldest = &context;
+    if (!context.in_flight || (oldest != nullptr && context.ray > oldest->ray)) continue;
+    oldest = &context;
+    stay = contexts.stay(slot);
   }
   if (oldest != nullptr)
     text += fmt::format(
         "oldest ray: {}, in the unit since cycle {}, at {} since cycle {}, {} visits done, {} stack entries\n",
-        oldest->ray, oldest->entered, name_of(oldest->place), oldest->since, oldest->visits, oldest->depth);
+        oldest->ray, oldest->entered, name_of(stay.place), stay.since, oldest->visits, oldest->depth);
   text += "links (entries, valid, ready):\n";
   for (const LinkProbe& link : probes.links)
     text += fmt::format("  {:<20} {} {} {}{}\n", link.name, link.occupancy(), link.valid(now) ? "valid" : "-    ",

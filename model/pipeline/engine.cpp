@@ -124,8 +124,8 @@ class PlainEngine final : public Engine {
       } else {
         wait(until);
       }
-      if (progress_ && stages_.result_queue.rays() >= progress_due_) {
-        progress_(stages_.result_queue.rays());
+      if (stages_.result_queue.rays() >= progress_due_) {
+        if (progress_) progress_(stages_.result_queue.rays());
         progress_due_ = stages_.result_queue.rays() + kProgressRays;
       }
     }

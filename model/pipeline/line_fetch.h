@@ -219,7 +219,7 @@ class LineFetch {
       }
       mshrs_.wait(number, slot_);
       ++waiting_for_[slot_];
-      contexts_[slot_].place = miss_place_;
+      contexts_.stay(slot_).place = miss_place_;
     }
     ++counters_.lookups;
     return Activity::Busy;

@@ -38,6 +38,8 @@ class ReplaySource {
     }
     r.drops_left = 0;
     r.best = intersect::kNoPrimitive;
+    __builtin_prefetch(r.step);  // a place of its own for every ray, first looked at when it is issued
+    __builtin_prefetch(r.key);
     return r.step != r.end;
   }
 
@@ -46,6 +48,7 @@ class ReplaySource {
     const Registers& r = registers_[slot];
     if (r.step == r.end || r.step->ref != ref || r.drops_left != 0) [[unlikely]]
       refuse_visit(slot, ref);
+    image_.prefetch(ref);
   }
 
   std::uint8_t box_test(Slot slot, accel::ChildRef) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace ctu::pipeline {
 
@@ -10,7 +11,7 @@ namespace ctu::pipeline {
 RigidChain::RigidChain(std::vector<Stage> stages, Contexts& contexts)
     : count_(static_cast<int>(stages.size())),
       contexts_(contexts),
-      passages_(std::bit_ceil(static_cast<std::size_t>(2 * contexts.count() + 2))),
+      passages_(std::bit_ceil(static_cast<std::size_t>(std::max(4, 2 * contexts.count())))),
       mask_(static_cast<Number>(passages_.size() - 1)) {
   std::copy(stages.begin(), stages.end(), stages_.begin());
 }
@@ -45,10 +46,11 @@ inline bool RigidChain::settle(Number n, int stage, Cycle room_behind) {
   passage.still_at_entry[i] = entered.still;
   passage.leaves[i] = leaves;
   passage.still_at_exit[i] = still_at_exit;
+  passage.last_stop[i] = leaves == due ? before.last_stop[i] : leaves;
   return changes;
 }
 
-/// The same as entry() where the stage has stood still since the token before came, or will.
+/// The same as entry() where the stage stands still when token `n` comes, or will.
 RigidChain::Entry RigidChain::entry_among_stops(Number n, int stage, Cycle arrival) const {
   const auto i = static_cast<std::size_t>(stage);
   const Passage& before = at(n - 1);
@@ -104,18 +106,18 @@ void RigidChain::find_third() {
 void RigidChain::leave(Cycle now) {
   const Passage& passage = at(head_);
   const Passage& before = at(head_ - 1);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
-    const Stage& stage = stages_[i];
-    if (i > 0) contexts_.move(passage.token.slot, passage.enters[i], stage.place);
+  const auto last = static_cast<std::size_t>(count_ - 1);
+  for (std::size_t i = 0; i < kMaxStages; ++i) {  // all of them at once; what is behind the last one is not used
     const Cycle behind = passage.leaves[i] + 1;
-    const Cycle stood = passage.still_at_exit[i] - before.still_at_exit[i], again = passage.occupies[i] - 1u;
-    stage.account->add(Activity::OutputFull, stood);
-    stage.account->add(stage.occupied, again);
-    stage.account->add(Activity::Busy, behind - std::max(passage.enters[i], busy_until_[i]) - stood - again);
+    const Cycle stood = passage.still_at_exit[i] - before.still_at_exit[i], again = passage.occupies[i] - Cycle{1};
+    stood_[i] += stood;
+    occupied_again_[i] += again;
+    busy_[i] += behind - std::max(passage.enters[i], busy_until_[i]) - stood - again;
     busy_until_[i] = behind;
   }
+  for (std::size_t i = 0; i + 1 < kMaxStages; ++i) stayed_[i] += passage.enters[i + 1] - passage.enters[i];
+  contexts_.stay(passage.token.slot) = {passage.enters[last], stages_[last].place};
   ++head_;
-  const auto last = static_cast<std::size_t>(count_ - 1);
   head_ready_ = head_ == tail_ ? kNever : at(head_).leaves[last] + 1;
   find_third();
   if (tail_ - head_ >= 2 && at(head_ + 1).leaves[last] <= now) settle_from(head_ + 1, now + 1);
@@ -129,7 +131,14 @@ Cycle RigidChain::next_event(Cycle now) const {
 }
 
 void RigidChain::close_accounts(Cycle end) {
-  for (int i = 0; i < count_; ++i) stages_[static_cast<std::size_t>(i)].account->rest_idle(end);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count_); ++i) {
+    const Stage& stage = stages_[i];
+    stage.account->add(Activity::OutputFull, std::exchange(stood_[i], 0));
+    stage.account->add(stage.occupied, std::exchange(occupied_again_[i], 0));
+    stage.account->add(Activity::Busy, std::exchange(busy_[i], 0));
+    stage.account->rest_idle(end);
+    if (i + 1 < static_cast<std::size_t>(count_)) contexts_.charge(stage.place, std::exchange(stayed_[i], 0));
+  }
 }
 
 Activity RigidChain::shown_activity(int stage) const {
@@ -148,11 +157,9 @@ void RigidChain::show(Cycle now) {
   shown_ = now;
   for (int i = 0; i < count_; ++i) stages_[static_cast<std::size_t>(i)].account->show(shown_activity(i));
   for (Number n = head_; n != tail_; ++n) {
-    Context& context = contexts_[at(n).token.slot];
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count_) && at(n).enters[i] <= now; ++i) {
-      context.place = stages_[i].place;
-      context.since = at(n).enters[i];
-    }
+    Stay& stay = contexts_.stay(at(n).token.slot);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count_) && at(n).enters[i] <= now; ++i)
+      stay = {at(n).enters[i], stages_[i].place};
   }
 }
 

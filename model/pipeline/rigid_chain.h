@@ -49,13 +49,14 @@ class RigidChain {
   /// A token stands in the last link.
   bool can_leave(Cycle now) const { return head_ready_ <= now; }
   const NodeToken& front() const { return at(head_).token; }
-  /// Takes it, and charges accounts and the ray's places for its way.
+  /// Takes it; its way is in the accounts when they are closed.
   void leave(Cycle now);
 
   /// The next cycle after `now` in which a token can leave that could not before, or the first stage stands no more.
   Cycle next_event(Cycle now) const;
 
-  /// What no stage was charged with until the end of the run, when the row is empty, it was idle.
+  /// Charges accounts and rays' places with the ways of all tokens that have left. Of `end` cycles, those of which a
+  /// stage knows nothing were idle.
   void close_accounts(Cycle end);
 
   /// For a report: brings the rays' places and what the stages are up to date.
@@ -67,11 +68,14 @@ class RigidChain {
   /// Tokens are numbered as they enter.
   using Number = std::uint32_t;
 
-  /// By stage: when the token enters and leaves, and for how many cycles the stage had stood still until then.
+  using Times = std::array<Cycle, kMaxStages>;  ///< by stage
+
+  /// When the token enters and leaves, and for how many cycles the stage had stood still until then.
   struct Passage {
     NodeToken token;
     Occupies occupies{};
-    std::array<Cycle, kMaxStages> enters{}, leaves{}, still_at_entry{}, still_at_exit{};
+    Times enters{}, leaves{}, still_at_entry{}, still_at_exit{};
+    Times last_stop{};  ///< end of the last time the stage stood still because this token or one before could not leave
   };
   struct Entry {
     Cycle cycle, still;
@@ -85,9 +89,10 @@ class RigidChain {
     const Passage& before = at(n - 1);
     const auto i = static_cast<std::size_t>(stage);
     const Cycle free = before.enters[i] + before.occupies[i];
-    if (before.still_at_exit[i] == before.still_at_entry[i]) [[likely]]
-      return {free > arrival ? free : arrival, before.still_at_entry[i]};
-    return entry_among_stops(n, stage, arrival);
+    const Cycle stood = before.still_at_exit[i] - before.still_at_entry[i];
+    if (stood != 0 && before.last_stop[i] > arrival) [[unlikely]]
+      return entry_among_stops(n, stage, arrival);
+    return {free + stood > arrival ? free + stood : arrival, before.still_at_exit[i]};
   }
   Entry entry_among_stops(Number n, int stage, Cycle arrival) const;
   bool settle(Number n, int stage, Cycle room_behind);
@@ -99,7 +104,9 @@ class RigidChain {
 
   int count_;
   std::array<Stage, kMaxStages> stages_{};
-  std::array<Cycle, kMaxStages> busy_until_{};  ///< charged so far
+  Times busy_until_{};                         ///< what is behind has been added to the sums:
+  Times busy_{}, stood_{}, occupied_again_{};  ///< cycles of the stage
+  Times stayed_{};                             ///< cycles of rays, of all stages but the last
   Contexts& contexts_;
   std::vector<Passage> passages_;      ///< a ring
   Number mask_, head_ = 2, tail_ = 2;  ///< two blank ones stand before the first token

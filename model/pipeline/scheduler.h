@@ -87,8 +87,8 @@ class Scheduler {
   }
 
   bool issue_oldest(Cycle now) {
-    const bool node = !node_queue_.empty() && to_node_fetch.can_push(now);
-    const bool leaf = !leaf_queue_.empty() && to_leaf_fetch.can_push(now);
+    const bool node = !node_queue_.empty() & to_node_fetch.can_push(now);
+    const bool leaf = !leaf_queue_.empty() & to_leaf_fetch.can_push(now);
     if (!node && !leaf) return false;
     // Numbers go round; at most kMaxContexts are out, so the sign of the difference orders them.
     const bool leaf_first =

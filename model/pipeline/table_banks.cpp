@@ -12,8 +12,22 @@ TableBanks::TableBanks(const UnitConfig& config, const cull::OnChipTables& table
       ports_(config.mask_test.ports),
       one_after_the_other_(reads_twice(config.mask_test.design)),
       cached_(config.table_cache.bytes > 0),
+      shared_(config.mask_test.design == cull::Design::Projection && tables.tables().size() < 3),  // three reads a lane
       memories_(tables.tables().size()) {
   for (std::size_t m = 0; m < memories_.size(); ++m) memories_[m].used.resize(tables.tables()[m].rows);
+}
+
+TableBanks::Usage TableBanks::usage(std::size_t memory) const {
+  const Memory& m = memories_[memory];
+  return {m.reads, m.shared_reads, static_cast<std::uint64_t>(std::count(m.used.begin(), m.used.end(), 1))};
+}
+
+void TableBanks::read_alone(const LaneKeys& lanes, const Context& context) {
+  for_each_read(tables_, lanes, context, [&](const cull::TableRead& read, std::uint32_t) {
+    Memory& memory = memories_[read.table];
+    ++memory.reads;
+    memory.used[read.row] = 1;
+  });
 }
 
 int TableBanks::read_all(const LaneKeys& lanes, const Context& context) {
@@ -30,15 +44,12 @@ int TableBanks::read_all(const LaneKeys& lanes, const Context& context) {
 void TableBanks::add(Memory& memory, std::uint32_t row) {
   for (int i = 0; i < memory.count; ++i)
     if (memory.row[i] == row) {
-      ++memory.usage.shared_reads;
+      ++memory.shared_reads;
       return;
     }
   memory.row[memory.count++] = row;
-  ++memory.usage.reads;
-  auto used = memory.used[row];
-  if (used) return;
-  used = true;
-  ++memory.usage.rows_used;
+  ++memory.reads;
+  memory.used[row] = 1;
 }
 
 int TableBanks::turns(const Memory& memory) const {

@@ -21,7 +21,12 @@ class TableBanks {
   /// Cycles that the reads of these lanes take, at least 1: of a memory the most over its banks of ceil(reads / ports),
   /// of all memories the most; of Dedup's two the sum less one, as the second turn of reads begins when the ids are
   /// there. Throws Error as for_each_read does.
-  int read(const LaneKeys& lanes, const Context& context) { return memories_.empty() ? 1 : read_all(lanes, context); }
+  int read(const LaneKeys& lanes, const Context& context) {
+    if (lanes.count == 0 || memories_.empty()) return 1;
+    if (lanes.count > 1 || shared_) return read_all(lanes, context);
+    read_alone(lanes, context);
+    return 1;
+  }
 
   struct Usage {
     std::uint64_t reads = 0;         ///< those of one row in one cycle once
@@ -29,7 +34,7 @@ class TableBanks {
     std::uint64_t rows_used = 0;     ///< rows read at least once
   };
   /// Of a memory, by its number in OnChipTables::tables().
-  const Usage& usage(std::size_t memory) const { return memories_[memory].usage; }
+  Usage usage(std::size_t memory) const;
   const std::vector<cull::OnChipTable>& tables() const { return tables_.tables(); }
 
  private:
@@ -38,10 +43,12 @@ class TableBanks {
   struct Memory {
     int count = 0;  ///< rows that the node reads
     std::uint32_t row[kMaxReads];
-    Usage usage;
-    std::vector<bool> used;  ///< by row
+    std::uint64_t reads = 0, shared_reads = 0;
+    std::vector<std::uint8_t> used;  ///< by row, 1: read at least once
   };
 
+  /// Most nodes have one lane that asks, whose reads meet nobody else's.
+  void read_alone(const LaneKeys& lanes, const Context& context);
   int read_all(const LaneKeys& lanes, const Context& context);
   static void add(Memory& memory, std::uint32_t row);
   int turns(const Memory& memory) const;
@@ -50,6 +57,7 @@ class TableBanks {
   std::uint32_t bank_mask_;
   int ports_;
   bool one_after_the_other_, cached_;
+  bool shared_;  ///< a lane reads a memory more than once
   std::vector<Memory> memories_;
 };
 

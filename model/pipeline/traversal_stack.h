@@ -17,6 +17,7 @@
 //   stalls: output_full, spill
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -168,34 +169,32 @@ class TraversalStack {
   }
 
   bool take(Cycle now) {
-    for (int i = 0, input = turn_; i < kInputs; ++i, input = input + 1 == kInputs ? 0 : input + 1) {
-      if (!take_from(input, now)) continue;
-      turn_ = input + 1 == kInputs ? 0 : input + 1;
-      return true;
-    }
-    return false;
+    const unsigned offered = unsigned{sorted.can_pop(now)} | unsigned{leaf_done.can_pop(now)} << 1 |
+                             unsigned{can_spill_ && refills.can_pop(now)} << 2;
+    if (offered == 0) return false;
+    const unsigned twice = offered | offered << kInputs;  // from turn_ on, going round
+    const int input = (turn_ + std::countr_zero(twice >> turn_)) % kInputs;
+    turn_ = (input + 1) % kInputs;
+    take_from(input, now);
+    return true;
   }
 
-  bool take_from(int input, Cycle now) {
+  void take_from(int input, Cycle now) {
     if (input == 0) {
-      if (!sorted.can_pop(now)) return false;
       const NodeToken token = sorted.front();
       sorted.pop(now);
       take_node(now, token);
     } else if (input == 1) {
-      if (!leaf_done.can_pop(now)) return false;
       const LeafDone token = leaf_done.front();
       leaf_done.pop(now);
       begin(now, token.slot, token.finished ? Job::Finish : Job::Pop);
       if (!token.finished) source_.begin_pop(slot_);
     } else {
-      if (!refills.can_pop(now)) return false;
       const auto slot = static_cast<Slot>(refills.front().id);
       refills.pop(now);
       contexts_[slot].spilled = static_cast<std::uint16_t>(contexts_[slot].spilled - spill_batch_);
       begin(now, slot, Job::Pop);  // goes on where it was
     }
-    return true;
   }
 
   void take_node(Cycle now, const NodeToken& token) {
