@@ -94,8 +94,11 @@ module float_fraction #(
   );
 
   // 3: rounded and packed.
-  logic [31:0] rounded;
-  float_round round (
+  float_finish #(
+      .LATENCY(REGISTERS_3)
+  ) finish (
+      .clk_i,
+      .enable_i,
       .sign_i(sign_q2),
       .exponent_i({1'b0, exponent_q2}),
       .significand_i(significand_q2),
@@ -104,15 +107,6 @@ module float_fraction #(
       .infinite_i(infinite_q2),
       .nan_i(nan_q2),
       .round_i(UP ? `FLOAT_ROUND_UP : `FLOAT_ROUND_DOWN),
-      .result_o(rounded)
-  );
-  pipe_row #(
-      .WIDTH(32),
-      .DEPTH(REGISTERS_3)
-  ) row_3 (
-      .clk_i,
-      .enable_i,
-      .data_i(rounded),
-      .data_o(result_o)
+      .result_o
   );
 endmodule
