@@ -305,8 +305,12 @@ module mask_test #(
       for (genvar lane = 0; lane < 4; lane++) begin : g_id
         assign id[ID_BITS*lane+:ID_BITS] = key_rows[TABLE_WIDTH*lane+ID_MIRROR_BITS+:ID_BITS];
         if (MIRRORS) begin : g_mirrored
+`ifdef CTU_MUTATE_ID_NOT_MIRRORED
+          assign info_by_id[8+SLOT_BITS+3*lane+:3] = info_q[8+SLOT_BITS+3*lane+:3];
+`else
           assign info_by_id[8+SLOT_BITS+3*lane+:3] =
               info_q[8+SLOT_BITS+3*lane+:3] ^ key_rows[TABLE_WIDTH*lane+:3];
+`endif
         end else begin : g_as_it_is
           assign info_by_id[8+SLOT_BITS+3*lane+:3] = 3'd0;
         end
@@ -341,7 +345,11 @@ module mask_test #(
           .clk_i,
           .rst_i,
           .enter_i(start),
+`ifdef CTU_MUTATE_SECOND_TURNS_FORGOTTEN
+          .occupies_i(4'd1),
+`else
           .occupies_i(turns_by_id),
+`endif
           .ready_i(survivors_ready_i),
           .can_enter_o(rows_can_enter),
           .start_o(last_turn),

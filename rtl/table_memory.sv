@@ -125,7 +125,12 @@ module table_memory #(
         if (enable_i) fresh_q <= served[i];
         if (enable_i && fresh_q) kept_q <= at_port;
       end
+`ifdef CTU_MUTATE_ROWS_NOT_KEPT
+      wire unused_kept = &{1'b0, kept_q};
+      assign data_o[WIDTH*i+:WIDTH] = at_port;
+`else
       assign data_o[WIDTH*i+:WIDTH] = fresh_q ? at_port : kept_q;
+`endif
     end
   endgenerate
 endmodule

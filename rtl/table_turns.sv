@@ -27,7 +27,11 @@ module table_turns #(
     turns_o = 4'd1;
     for (int i = 0; i < READS; i++) begin
       for (int j = 0; j < i; j++) begin
+`ifdef CTU_MUTATE_UNSHARED_READS
+        if (1'b0) begin
+`else
         if (first[i] && valid_i[j] && row_i[ROW_BITS*i+:ROW_BITS] == row_i[ROW_BITS*j+:ROW_BITS]) begin
+`endif
           first[i] = 1'b0;
           turn_o[4*i+:4] = turn_o[4*j+:4];
           port_o[2*i+:2] = port_o[2*j+:2];

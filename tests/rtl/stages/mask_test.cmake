@@ -32,6 +32,11 @@ mask_test_model(ProjectionCached DESIGN=5 R=4 R_RAY=4 ENTRIES=64 CACHED=1'b1)
 mask_test_model(DedupCached DESIGN=4 R=4 R_RAY=5 ROWS=1 CACHED=1'b1 LATENCY=1)
 mask_test_model(BitTableCached DESIGN=3 R=4 R_RAY=5 ROWS=2 ENTRIES=64 CACHED=1'b1 LATENCY=3)
 
+rtl_mutants(mask_test_mutants TOP mask_test NAMES UnsharedReads RowsNotKept IdNotMirrored SecondTurnsForgotten
+  SOURCES ${mask_test_headers} ${rtl_flow_sources} ${mask_test_sources} ${rtl}/mask_test.sv
+  ARGS -GDESIGN=4 -GROWS=1 -GDISTINCT=700 -GBANKS=1 -GLATENCY=1)
+list(APPEND mask_test_libraries ${mask_test_mutants})
+
 # Each fold for a few resolutions of rays.
 ctu_verilate(rtl_fold_bench PREFIX VFoldBench TOP fold_bench
   SOURCES ${mask_test_headers} ${rtl}/key_fold.svh ${rtl}/mirror_fold.sv ${rtl}/reverse_fold.sv
