@@ -83,8 +83,13 @@ module line_fetch #(
   assign fills_pop_o = fills_valid_i;
   assign look_o = wanted && !fills_valid_i;
   assign starts_o = look_o && !active_q;
-  assign requests_pop_o = starts_o && !again_valid;
-  assign slot_o = active_q ? slot_q : again_valid ? again_slot : requests_slot_i;
+`ifdef CTU_MUTATE_FETCH_SECOND_ROUND_LAST
+  wire again = again_valid && !requests_valid_i;
+`else
+  wire again = again_valid;  // before new tokens
+`endif
+  assign requests_pop_o = starts_o && !again;
+  assign slot_o = active_q ? slot_q : again ? again_slot : requests_slot_i;
   wire walks = look_o && !(starts_o && none_i);
 
   // The lines of the cycle, one after the other up to the first that cannot be looked up.
@@ -276,7 +281,7 @@ module line_fetch #(
           next_place = next_place + SLOT_BITS'(goes_again[s] && filled_up[s]);
         end
       end
-      wire starts_again = starts_o && again_valid;
+      wire starts_again = starts_o && again;
       always_ff @(posedge clk_i) begin
         if (rst_i) begin
           head_q <= '0;
