@@ -3,10 +3,10 @@ set(line_fetch_sources ${rtl}/tokens.svh ${rtl}/arrival_queue.sv ${rtl}/next_in_
 set(span_fetch_sources ${line_fetch_sources} ${rtl}/line_buffer.sv ${rtl}/span_fetch.sv)
 
 # Both fetches of spans: masks of 64 bits and one port, indices and two ports, no masks and four ports with few bytes in
-# a line. Wide lines as loops, not word by word: a third of the code to compile.
+# a line. Wide lines as loops, not word by word: a third of the code to compile. All begin from noise.
 set(fetch_bench ${CMAKE_CURRENT_SOURCE_DIR}/fetch_bench.sv)
 set(fetch_bench_sources ${fetch_bench} ${span_fetch_sources} ${rtl}/node_fetch.sv ${rtl}/leaf_fetch.sv)
-set(compact --expand-limit 4)
+set(compact --expand-limit 4 --x-initial unique)
 set(four_ports -GLINE_BYTES=32 -GPORTS=4 -GMASK_BITS=0)
 ctu_verilate(rtl_fetch_one_port PREFIX VFetchOnePort TOP fetch_bench SOURCES ${fetch_bench_sources}
   ARGS ${compact} -GMAX_MSHRS=16)

@@ -115,7 +115,7 @@ class Twin {
   }
 
   VerilatedContext context_;
-  Model twin_{&context_};
+  Model twin_{from_noise(context_)};
   int clients_;
   Memory memory_;
   Difference difference_;

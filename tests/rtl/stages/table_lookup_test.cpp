@@ -109,7 +109,7 @@ class Twin {
   }
 
   VerilatedContext context_;
-  Model twin_{&context_};
+  Model twin_{from_noise(context_)};
   pipeline::TappedUnit& unit_;
   pipeline::TableLayout layout_;
   cull::Design design_;

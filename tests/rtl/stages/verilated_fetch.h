@@ -148,7 +148,7 @@ class VerilatedFetch {
   }
 
   VerilatedContext context_;
-  Model twin_{&context_};
+  Model twin_{from_noise(context_)};
   const accel::Image& image_;
   std::size_t line_bytes_;
   std::uint64_t full_mask_;
