@@ -24,7 +24,11 @@ module link #(
 
   always_ff @(posedge clk_i) begin
     if (pop_i && full_q) first_q <= second_q;
+`ifdef CTU_MUTATE_LINK_PASSED_ENTRY
+    else if (push_i && !valid_q) first_q <= data_i;
+`else
     else if (push_i && (pop_i || !valid_q)) first_q <= data_i;
+`endif
     if (push_i) second_q <= data_i;
   end
 

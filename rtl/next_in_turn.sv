@@ -15,7 +15,11 @@ module next_in_turn #(
   // half empty, it lies in the upper one, and the same with quarters, and so on.
   logic [PLACES-1:0] behind, left;
   always_comb begin
+`ifdef CTU_MUTATE_TURN_BEHIND_START
+    behind = members_i & ({PLACES{1'b1}} << start_i << 1);
+`else
     behind = members_i & ({PLACES{1'b1}} << start_i);
+`endif
     left = behind != '0 ? behind : members_i;
     found_o = members_i != '0;
     place_o = '0;

@@ -30,7 +30,11 @@ module pipe_control #(
   assign exit_valid_o = valid_q[LATENCY-1];
   assign enable_o = !exit_valid_o || ready_i;
   assign exit_o = exit_valid_o && ready_i;
+`ifdef CTU_MUTATE_PIPE_ENTERED_WHILE_FROZEN
+  assign can_enter_o = rest_q == '0;
+`else
   assign can_enter_o = enable_o && rest_q == '0;
+`endif
   assign start_o = enable_o && (rest_q == OCCUPIES_BITS'(1) || (enter_i && occupies_i == OCCUPIES_BITS'(1)));
   assign empty_o = valid_q == '0 && rest_q == '0;
 
