@@ -28,6 +28,7 @@ function(ctu_verilator_runtime)
   add_library(ctu_verilated STATIC ${include}/verilated.cpp ${include}/verilated_threads.cpp)
   target_include_directories(ctu_verilated SYSTEM PUBLIC ${include} ${include}/vltstd)
   target_compile_options(ctu_verilated PRIVATE -w)
+  set_target_properties(ctu_verilated PROPERTIES POSITION_INDEPENDENT_CODE ON)  # models may be loaded at run time
   target_link_libraries(ctu_verilated PUBLIC Threads::Threads)
 endfunction()
 

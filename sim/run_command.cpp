@@ -15,8 +15,10 @@ namespace ctu::sim {
 namespace {
 
 void check_engine(const std::string& engine) {
-  if (engine == "cycle" || engine == "reference") return;
-  throw Error("--engine", fmt::format("there is no engine \"{}\" in this version", engine), "give cycle or reference");
+  for (const char* known : {"cycle", "reference", "rtl", "both"})
+    if (engine == known) return;
+  throw Error("--engine", fmt::format("there is no engine \"{}\" in this version", engine),
+              "give cycle, reference, rtl or both");
 }
 
 /// "A:B" into the options.
@@ -59,7 +61,9 @@ void print_compare_row(const RunRecord& r, bool markdown) {
 }
 
 /// What a run must show: the expected hits, by the recorded way.
-bool is_right(const RunRecord& record) { return record.result.wrong_hits == 0 && record.result.other_visits == 0; }
+bool is_right(const RunRecord& record) {
+  return record.result.wrong_hits == 0 && record.result.other_visits == 0 && record.twins.first_difference.empty();
+}
 
 }  // namespace
 

@@ -108,7 +108,12 @@ void write_json(const RunRecord& record, const std::string& path) {
   json["wall_seconds"] = record.wall_seconds;
   json["processor_seconds"] = record.processor_seconds;
   json["rays_per_second"] = record.rays_per_second();
-  if (record.engine == "cycle") json.update(timed_json(record));
+  if (record.timed()) json.update(timed_json(record));
+  if (record.engine == "both") {
+    json["handshakes_compared"] = record.twins.handshakes;
+    json["signals_compared"] = record.twins.signals;
+    json["first_difference"] = record.twins.first_difference;
+  }
   json["counters"] = counters_json(record.result);
   json["config"] = config_json(record.config);
 

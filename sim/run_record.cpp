@@ -12,6 +12,15 @@ double percent(std::uint64_t part, std::uint64_t whole) {
   return 100 * ratio(static_cast<double>(part), static_cast<double>(whole));
 }
 
+template <class Row>
+void print_twins(const TwinComparison& twins, const Row& row) {
+  row("compared", fmt::format("{} handshakes, {} signals", twins.handshakes, twins.signals));
+  row("differences", twins.first_difference.empty() ? "0" : "1, and stopped there");
+  if (twins.first_difference.empty()) return;
+  row("first difference", twins.first_difference);
+  row("waveforms", fmt::format("{0}.model.vcd, {0}.rtl.vcd", twins.waves));
+}
+
 void print_summary(const RunRecord& r) {
   const auto& counts = r.result.counts;
   const auto row = [](std::string_view name, const std::string& value) { fmt::print("{:<24}{}\n", name, value); };
@@ -27,16 +36,18 @@ void print_summary(const RunRecord& r) {
                   ratio(double(counts.node_visits), double(counts.rays)),
                   ratio(double(counts.triangle_tests), double(counts.rays))));
   row("culled share", fmt::format("{:.2f} % of {} box hits", 100 * counts.culled_share(), counts.box_hits));
-  row("passed as uncertain", fmt::format("{} box hits", counts.uncertain));
-  if (r.engine == "cycle") {
+  if (r.engine != "rtl") row("passed as uncertain", fmt::format("{} box hits", counts.uncertain));
+  if (r.timed()) {
     row("cycles", std::to_string(r.result.cycles));
     row("cycles per ray", fmt::format("{:.3f}", r.cycles_per_ray()));
+  }
+  if (r.timed() && r.engine != "rtl")
     row("latency of a ray",
         fmt::format("{:.1f} cycles", ratio(double(r.result.ray_latency_sum), double(r.result.rays))));
-  }
+  if (r.engine == "both") print_twins(r.twins, row);
   row("simulation speed",
       fmt::format("{:.3g} rays/s{} in {:.3f} s", r.rays_per_second(),
-                  r.engine == "cycle" ? fmt::format(", {:.3g} cycles/s", r.cycles_per_second()) : "", r.wall_seconds));
+                  r.timed() ? fmt::format(", {:.3g} cycles/s", r.cycles_per_second()) : "", r.wall_seconds));
 }
 
 void print_stages(const pipeline::UnitResult& result) {
@@ -87,8 +98,8 @@ double RunRecord::rays_per_second() const { return ratio(double(result.rays), wa
 
 void print_record(const RunRecord& record) {
   print_summary(record);
-  if (record.engine == "cycle") {
-    print_stages(record.result);
+  if (record.timed()) print_stages(record.result);
+  if (record.engine == "cycle" || record.engine == "both") {
     print_ray_cycles(record.result);
     print_counters(record.result);
     if (!record.result.left_out.empty()) fmt::print("\nleft out, because this trace does not need it:\n");

@@ -8,8 +8,15 @@
 
 namespace ctu::sim {
 
+/// Of engine "both".
+struct TwinComparison {
+  std::uint64_t handshakes = 0, signals = 0;  ///< compared
+  std::string first_difference;               ///< empty: none
+  std::string waves;  ///< with a difference: PREFIX of both waveforms around it, PREFIX.model.vcd and PREFIX.rtl.vcd
+};
+
 struct RunRecord {
-  std::string engine;  ///< "reference" (untimed: no cycles) or "cycle"
+  std::string engine;  ///< "reference" (untimed: no cycles), "cycle", "rtl", or "both"
   std::string mode;    ///< of the cycle engine: "plain", "batch", "cycle", "pins"
   std::string source;  ///< "replay" or "exec"
   std::string trace_path, trace_hash, scene;
@@ -18,9 +25,11 @@ struct RunRecord {
   std::string config_hash;
   std::string design;
   pipeline::UnitResult result;
+  TwinComparison twins;
   double wall_seconds = 0;       ///< of the simulation alone, without loading
   double processor_seconds = 0;  ///< likewise, of one core: what other programs take of a shared machine is not in it
 
+  bool timed() const { return engine != "reference"; }
   double cycles_per_ray() const;
   double cycles_per_second() const;
   double rays_per_second() const;

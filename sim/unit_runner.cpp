@@ -9,6 +9,7 @@
 #include "model/reference/traversal.h"
 #include "sim/config_file.h"
 #include "sim/progress.h"
+#include "sim/rtl_runner.h"
 #include "sim/stopwatch.h"
 
 namespace ctu::sim {
@@ -108,6 +109,10 @@ RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
   record.design = cull::to_string(plan.config.mask_test.design);
   if (plan.engine == "reference")
     run_timed(record, [&] { return run_reference(trace, tester, plan.range); });
+  else if (plan.engine == "rtl")
+    run_timed(record, [&] { return run_rtl(trace, tester, plan); });
+  else if (plan.engine == "both")
+    run_timed(record, [&] { return run_both(trace, tester, plan, record.twins); });
   else
     run_cycle(trace, tester, plan, record);
   return record;

@@ -17,7 +17,7 @@ unit::Source parse_source(const std::string& name);
 unit::RunOptions run_options(const UnitArgs& args);
 
 struct RunPlan {
-  std::string engine = "cycle";  ///< or "reference"
+  std::string engine = "cycle";  ///< or "reference", "rtl", "both"
   pipeline::UnitConfig config;
   unit::RunOptions options;
   traces::RayRange range;

@@ -1,0 +1,833 @@
+// ctu_unit: the culling traversal unit. Rays go in at the feed, hits come out at the return, lines come from memory.
+//
+//   twin    model/pipeline/pipeline.h and connections.h: the same stages, joined by the same links
+//
+// Parameters fix its structure, straps (inputs that keep their value while it runs) the rest. What a design or a scene
+// does not need is not there: DESIGN none has neither cell_locate nor mask_test, HAS_SPILLS 0 no way from the stack to
+// memory, TABLE_CACHE 0 no table_fetch.
+//
+// The register files of the contexts lie between the stages: rays, best hits, times of the slab test, and keys or touched
+// cells. Nodes, leaves and stacks by context are in node_fetch, leaf_fetch and traversal_stack.
+`include "mask_designs.svh"
+`include "links.svh"
+`include "tokens.svh"
+
+module ctu_unit #(
+    parameter int SLOT_BITS = 5,            // contexts: 1 << SLOT_BITS at most
+    parameter int ADDRESS_BITS = 40,
+    parameter int LINE_BYTES = 128,
+    parameter int DESIGN = `CTU_DESIGN_PROJECTION,
+    parameter int R = 4,
+    parameter int R_RAY = 4,
+    parameter int ENTRIES = 0,              // of the compression LUT; 0: object masks are not compressed
+    parameter int ROWS = `CTU_ROWS_ALL,     // of the tables
+    parameter int DISTINCT = 1270,          // rows of dedup's second memory
+    parameter int PROJECTION_TABLES = 3,
+    parameter int BANKS = 4,
+    parameter int PORTS = 1,
+    parameter int UNITS = 1,                // lanes located at once
+    parameter int NODE_PORTS = 1,
+    parameter int LEAF_PORTS = 1,
+    parameter int STACK_ENTRIES = 16,       // of a context on chip, a power of two
+    parameter bit HAS_SPILLS = 1'b1,
+    parameter int MAX_SETS = 128,           // of each cache
+    parameter int MAX_WAYS = 4,
+    parameter int MAX_MSHRS = 16,
+    parameter int MAX_HIT_LATENCY = 3,
+    parameter int MAX_LEAF_BYTES = 160,
+    parameter int RAY_SETUP_LATENCY = 20,
+    parameter int MIN_RAY_INTERVAL = 3,
+    parameter int BOX_LATENCY = 11,
+    parameter int LOCATE_LATENCY = 10,
+    parameter int MASK_LATENCY = 2,
+    parameter int MASK_SECOND_LATENCY = 1,  // dedup
+    parameter int SORT_LATENCY = 3,
+    parameter int TRIANGLE_LATENCY = 45,
+    parameter int HIT_LATENCY = 2,
+    parameter int LOAD_BITS = 64,           // of a table's row at the load port
+    localparam int SET_BITS = MAX_SETS == 1 ? 1 : $clog2(MAX_SETS),
+    localparam int WAY_BITS = $clog2(MAX_WAYS + 1),
+    localparam int MSHR_BITS = $clog2(MAX_MSHRS + 1),
+    localparam int HIT_LATENCY_BITS = $clog2(MAX_HIT_LATENCY + 1),
+    localparam int CLIENTS = HAS_SPILLS ? 3 : 2
+) (
+    input logic clk_i,
+    input logic rst_i,
+
+    // Straps.
+    input logic [         SLOT_BITS:0] contexts_i,           // in use
+    input logic [                 6:0] ray_interval_i,
+    input logic                        round_robin_i,
+    input logic [        SET_BITS-1:0] node_set_mask_i,
+    input logic [        WAY_BITS-1:0] node_ways_i,
+    input logic [       MSHR_BITS-1:0] node_mshrs_i,
+    input logic [HIT_LATENCY_BITS-1:0] node_hit_latency_i,
+    input logic [        SET_BITS-1:0] leaf_set_mask_i,
+    input logic [        WAY_BITS-1:0] leaf_ways_i,
+    input logic [       MSHR_BITS-1:0] leaf_mshrs_i,
+    input logic [HIT_LATENCY_BITS-1:0] leaf_hit_latency_i,
+    input logic [    ADDRESS_BITS-1:0] node_base_i,
+    input logic [                12:0] node_stride_i,
+    input logic [                30:0] masked_nodes_i,
+    input logic [    ADDRESS_BITS-1:0] bare_base_i,
+    input logic [                12:0] bare_stride_i,
+    input logic [                11:0] full_index_i,         // of compressed masks: the last one, which is full
+    input logic [    ADDRESS_BITS-1:0] triangle_base_i,
+    input logic [                12:0] triangle_stride_i,
+    input logic [                 6:0] triangle_interval_i,
+    input logic [                 9:0] result_interval_i,
+    input logic [                 6:0] stack_entries_i,
+    input logic [                 1:0] push_width_i,
+    input logic [                 6:0] spill_batch_i,
+    input logic [    ADDRESS_BITS-1:0] spill_base_i,
+    input logic [    ADDRESS_BITS-1:0] spill_region_i,
+
+    // Feed: the next ray; taken with ray_take_o, into context ray_slot_o.
+    input  logic                 ray_valid_i,
+    input  logic [         95:0] ray_origin_i,
+    input  logic [         95:0] ray_direction_i,
+    input  logic [         31:0] ray_tmin_i,
+    input  logic [         31:0] ray_tmax_i,
+    input  logic                 ray_any_hit_i,
+    output logic                 ray_take_o,
+    output logic [SLOT_BITS-1:0] ray_slot_o,
+
+    // Return: the hit of the ray in a context; always taken.
+    output logic                 return_valid_o,
+    output logic [SLOT_BITS-1:0] return_slot_o,
+    output logic [        127:0] return_hit_o,  // {t, u, v, primitive}
+
+    // Memory.
+    input  logic [             CLIENTS-1:0] mem_can_accept_i,     // it takes the request that the client shows
+    output logic [             CLIENTS-1:0] mem_asked_o,
+    output logic [CLIENTS*ADDRESS_BITS-1:0] mem_address_o,
+    output logic                            mem_request_valid_o,
+    output logic [                     1:0] mem_request_client_o,
+    output logic [        ADDRESS_BITS-1:0] mem_request_address_o,
+    output logic [                     7:0] mem_request_id_o,
+    output logic                            mem_request_write_o,
+    output logic [        8*LINE_BYTES-1:0] mem_request_data_o,
+    input  logic                            mem_answer_valid_i,
+    input  logic [                     1:0] mem_answer_client_i,
+    input  logic [                     7:0] mem_answer_id_i,
+    input  logic [        8*LINE_BYTES-1:0] mem_answer_data_i,
+    output logic                            mem_answer_take_o,
+    input  logic                            mem_busy_i,           // something is under way in it
+
+    // Tables, filled before rays come.
+    input logic                 load_valid_i,
+    input logic [          1:0] load_table_i,
+    input logic [         27:0] load_row_i,
+    input logic [LOAD_BITS-1:0] load_data_i,
+
+    output logic                row_left_out_o,  // a ray needs a row that ROWS leaves out: its hit is not to be used
+
+    // Accounts of the stages, in the order of links.svh.
+    output logic [4*`CTU_STAGES-1:0] activity_o,
+
+    // For tests: bit l makes link l refuse; tied low in a chip.
+    input logic [`CTU_LINKS-1:0] stall_push_i,
+    input logic [`CTU_LINKS-1:0] stall_pop_i
+);
+  localparam bit HAS_MASK_TEST = DESIGN != `CTU_DESIGN_NONE;
+  localparam int COMPARATORS = DESIGN == `CTU_DESIGN_COMPARATORS ? 1 : 0;
+  localparam int CELLS = R * R * R;
+  localparam int INDEX_BITS = ENTRIES > 1 ? $clog2(ENTRIES) : 1;
+  // Of a lane's mask in the image, and as it lies there, in whole bytes.
+  localparam int MASK_BITS = !HAS_MASK_TEST ? 0 : ENTRIES > 0 ? INDEX_BITS : CELLS;
+  localparam int LANE_BITS = MASK_BITS == 0 ? 1 : MASK_BITS;
+  localparam int LANE_BYTES = (MASK_BITS + 7) / 8;
+  localparam int NODE_BYTES = 112 + 4 * LANE_BYTES;
+  localparam int KEY_BITS = COMPARATORS != 0 ? CELLS : 31;
+
+  localparam int REF = SLOT_BITS + 32;
+  localparam int NODE = SLOT_BITS + `CTU_NODE_FIELDS;
+  localparam int TESTED = SLOT_BITS + `CTU_TESTED_FIELDS;
+  localparam int REQUEST = ADDRESS_BITS + `CTU_ID_BITS + 1;  // without data
+  localparam int LINE = 8 * LINE_BYTES;
+  localparam int RESPONSE = `CTU_ID_BITS + LINE;
+
+  // Links: their two sides by number, their data by name.
+  logic [`CTU_LINKS-1:0] valid, ready, push, pop;
+
+`define CTU_LINK(NAME, NUMBER, BITS) \
+  logic [BITS-1:0] NAME``_in, NAME``_out; \
+  link #( \
+      .WIDTH(BITS) \
+  ) NAME ( \
+      .clk_i, \
+      .rst_i, \
+      .stall_push_i(stall_push_i[NUMBER]), \
+      .stall_pop_i(stall_pop_i[NUMBER]), \
+      .push_i(push[NUMBER]), \
+      .data_i(NAME``_in), \
+      .ready_o(ready[NUMBER]), \
+      .pop_i(pop[NUMBER]), \
+      .valid_o(valid[NUMBER]), \
+      .data_o(NAME``_out) \
+  );
+  // The bits of a link that is left out.
+`define CTU_NO_LINK(NUMBER) \
+  assign valid[NUMBER] = 1'b0; \
+  assign ready[NUMBER] = 1'b0; \
+  assign push[NUMBER] = 1'b0; \
+  assign pop[NUMBER] = 1'b0;
+
+  `CTU_LINK(ray_to_scheduler, `CTU_RAY_TO_SCHEDULER, REF)
+  `CTU_LINK(ray_to_result, `CTU_RAY_TO_RESULT, SLOT_BITS)
+  `CTU_LINK(result_to_ray, `CTU_RESULT_TO_RAY, SLOT_BITS)
+  `CTU_LINK(scheduler_to_node, `CTU_SCHEDULER_TO_NODE, REF)
+  `CTU_LINK(scheduler_to_leaf, `CTU_SCHEDULER_TO_LEAF, REF)
+  `CTU_LINK(node_to_box, `CTU_NODE_TO_BOX, REF)
+  `CTU_LINK(sort_to_stack, `CTU_SORT_TO_STACK, NODE)
+  `CTU_LINK(leaf_to_triangle, `CTU_LEAF_TO_TRIANGLE, REF)
+  `CTU_LINK(triangle_to_hit, `CTU_TRIANGLE_TO_HIT, TESTED)
+  `CTU_LINK(hit_to_stack, `CTU_HIT_TO_STACK, SLOT_BITS + 1)
+  `CTU_LINK(stack_to_scheduler, `CTU_STACK_TO_SCHEDULER, REF)
+  `CTU_LINK(stack_to_result, `CTU_STACK_TO_RESULT, SLOT_BITS)
+  `CTU_LINK(node_to_memory, `CTU_NODE_TO_MEMORY, REQUEST)
+  `CTU_LINK(memory_to_node, `CTU_MEMORY_TO_NODE, RESPONSE)
+  `CTU_LINK(leaf_to_memory, `CTU_LEAF_TO_MEMORY, REQUEST)
+  `CTU_LINK(memory_to_leaf, `CTU_MEMORY_TO_LEAF, RESPONSE)
+  // Rays by context. What the host gives is written as ray_queue takes a ray, what it computes as the ray leaves it. Read
+  // by box_test, cell_locate, triangle_test and hit_update.
+  logic [SLOT_BITS-1:0] box_slot, locate_slot, triangle_ray_slot, hit_slot;
+
+  localparam int ORIGIN = 0;
+  localparam int TMIN = 96;
+  localparam int DIRECTION_Z = 128;
+  localparam int KX = 160;
+  localparam int KY = 162;
+  localparam int KZ = 164;
+  localparam int ZERO_AXES = 166;
+  localparam int NEGATIVE_AXES = 169;
+  localparam int ANY_HIT = 172;
+  localparam int RAY = 173;
+  logic [1:0] ray_kx, ray_ky, ray_kz;
+  logic [2:0] ray_zero_axes, ray_negative_axes;
+  logic [31:0] ray_direction_z;
+  logic [RAY-1:0] box_ray, locate_ray, triangle_ray, hit_ray;
+  assign ray_direction_z = ray_direction_i[32*ray_kz+:32];
+  context_file #(
+      .WIDTH(RAY),
+      .SLOT_BITS(SLOT_BITS),
+      .READS(4)
+  ) rays (
+      .clk_i,
+      .write_i(ray_take_o),
+      .write_slot_i(ray_slot_o),
+      .write_data_i({ray_any_hit_i, ray_negative_axes, ray_zero_axes, ray_kz, ray_ky, ray_kx, ray_direction_z,
+                     ray_tmin_i, ray_origin_i}),
+      .read_slot_i({hit_slot, triangle_ray_slot, locate_slot, box_slot}),
+      .read_data_o({hit_ray, triangle_ray, locate_ray, box_ray})
+  );
+
+  localparam int RCP_DOWN = 0;
+  localparam int RCP_UP = 96;
+  localparam int SX = 192;
+  localparam int SY = 224;
+  localparam int SETUP = 256;
+  logic setup_write;
+  logic [SLOT_BITS-1:0] setup_slot;
+  logic [95:0] setup_rcp_down, setup_rcp_up;
+  logic [31:0] setup_sx, setup_sy;
+  logic [SETUP-1:0] box_setup, triangle_setup;
+  context_file #(
+      .WIDTH(SETUP),
+      .SLOT_BITS(SLOT_BITS),
+      .READS(2)
+  ) ray_setups (
+      .clk_i,
+      .write_i(setup_write),
+      .write_slot_i(setup_slot),
+      .write_data_i({setup_sy, setup_sx, setup_rcp_up, setup_rcp_down}),
+      .read_slot_i({triangle_ray_slot, box_slot}),
+      .read_data_o({triangle_setup, box_setup})
+  );
+
+  // Best hits by context, {t, u, v, primitive}: written by ray_queue and hit_update; read by box_test, triangle_test,
+  // hit_update, traversal_stack and for the host.
+  logic best_write;
+  logic [SLOT_BITS-1:0] triangle_best_slot, stack_slot;
+  logic [127:0] best_written, box_best, triangle_best, hit_best, stack_best;
+  context_file #(
+      .WIDTH(128),
+      .SLOT_BITS(SLOT_BITS),
+      .WRITES(2),
+      .READS(5)
+  ) best_hits (
+      .clk_i,
+      .write_i({best_write, ray_take_o}),
+      .write_slot_i({hit_slot, ray_slot_o}),
+      .write_data_i({best_written, ray_tmax_i, 64'd0, 32'hffffffff}),
+      .read_slot_i({return_slot_o, stack_slot, hit_slot, triangle_best_slot, box_slot}),
+      .read_data_o({return_hit_o, stack_best, hit_best, triangle_best, box_best})
+  );
+
+  // Entry times of the four lanes by context: written by box_test; read by child_sort and traversal_stack. The other
+  // times of the slab test are there only for cell_locate.
+  logic times_write;
+  logic [SLOT_BITS-1:0] times_write_slot, sort_slot;
+  logic [127:0] t0_written, t1_written, sort_t0, stack_t0, locate_t0;
+  logic [383:0] near_down_written, near_up_written, far_down_written, far_up_written;
+  context_file #(
+      .WIDTH(128),
+      .SLOT_BITS(SLOT_BITS),
+      .READS(3)
+  ) entry_times (
+      .clk_i,
+      .write_i(times_write),
+      .write_slot_i(times_write_slot),
+      .write_data_i(t0_written),
+      .read_slot_i({locate_slot, stack_slot, sort_slot}),
+      .read_data_o({locate_t0, stack_t0, sort_t0})
+  );
+
+  ray_queue #(
+      .SLOT_BITS(SLOT_BITS),
+      .LATENCY(RAY_SETUP_LATENCY),
+      .MIN_INTERVAL(MIN_RAY_INTERVAL)
+  ) ray_queue_stage (
+      .clk_i,
+      .rst_i,
+      .contexts_i,
+      .interval_i(ray_interval_i),
+      .ray_valid_i,
+      .ray_origin_i,
+      .ray_direction_i,
+      .ray_tmin_i,
+      .ray_tmax_i,
+      .ray_take_o,
+      .ray_slot_o,
+      .ray_zero_axes_o(ray_zero_axes),
+      .ray_negative_axes_o(ray_negative_axes),
+      .ray_kx_o(ray_kx),
+      .ray_ky_o(ray_ky),
+      .ray_kz_o(ray_kz),
+      .freed_valid_i(valid[`CTU_RESULT_TO_RAY]),
+      .freed_data_i(result_to_ray_out),
+      .freed_pop_o(pop[`CTU_RESULT_TO_RAY]),
+      .to_scheduler_ready_i(ready[`CTU_RAY_TO_SCHEDULER]),
+      .to_scheduler_push_o(push[`CTU_RAY_TO_SCHEDULER]),
+      .to_scheduler_data_o(ray_to_scheduler_in),
+      .to_result_ready_i(ready[`CTU_RAY_TO_RESULT]),
+      .to_result_push_o(push[`CTU_RAY_TO_RESULT]),
+      .to_result_data_o(ray_to_result_in),
+      .setup_write_o(setup_write),
+      .setup_slot_o(setup_slot),
+      .setup_rcp_down_o(setup_rcp_down),
+      .setup_rcp_up_o(setup_rcp_up),
+      .setup_sx_o(setup_sx),
+      .setup_sy_o(setup_sy),
+      .activity_o(activity_o[4*`CTU_RAY_QUEUE+:4])
+  );
+
+  scheduler #(
+      .SLOT_BITS(SLOT_BITS)
+  ) scheduler_stage (
+      .clk_i,
+      .rst_i,
+      .policy_round_robin_i(round_robin_i),
+      .from_stack_valid_i(valid[`CTU_STACK_TO_SCHEDULER]),
+      .from_stack_data_i(stack_to_scheduler_out),
+      .from_stack_pop_o(pop[`CTU_STACK_TO_SCHEDULER]),
+      .from_rays_valid_i(valid[`CTU_RAY_TO_SCHEDULER]),
+      .from_rays_data_i(ray_to_scheduler_out),
+      .from_rays_pop_o(pop[`CTU_RAY_TO_SCHEDULER]),
+      .to_node_fetch_ready_i(ready[`CTU_SCHEDULER_TO_NODE]),
+      .to_node_fetch_push_o(push[`CTU_SCHEDULER_TO_NODE]),
+      .to_node_fetch_data_o(scheduler_to_node_in),
+      .to_leaf_fetch_ready_i(ready[`CTU_SCHEDULER_TO_LEAF]),
+      .to_leaf_fetch_push_o(push[`CTU_SCHEDULER_TO_LEAF]),
+      .to_leaf_fetch_data_o(scheduler_to_leaf_in),
+      .activity_o(activity_o[4*`CTU_SCHEDULER+:4])
+  );
+
+  // Readers of a node, first one lowest: box_test, traversal_stack, cell_locate, mask_test.
+  localparam int NODE_READERS = HAS_MASK_TEST ? 4 : 2;
+  logic [NODE_READERS*SLOT_BITS-1:0] node_slot;
+  logic [NODE_READERS*768-1:0] node_boxes;
+  logic [NODE_READERS*128-1:0] node_children;
+  logic [NODE_READERS*4*LANE_BITS-1:0] node_masks;
+  logic [NODE_READERS*4-1:0] node_full;
+  assign node_slot[0+:2*SLOT_BITS] = {stack_slot, box_slot};
+  node_fetch #(
+      .SLOT_BITS(SLOT_BITS),
+      .ADDRESS_BITS(ADDRESS_BITS),
+      .LINE_BYTES(LINE_BYTES),
+      .PORTS(NODE_PORTS),
+      .MAX_SETS(MAX_SETS),
+      .MAX_WAYS(MAX_WAYS),
+      .MAX_MSHRS(MAX_MSHRS),
+      .MAX_HIT_LATENCY(MAX_HIT_LATENCY),
+      .MASK_BITS(MASK_BITS),
+      .MAX_STRIDE(NODE_BYTES),
+      .READ_PORTS(NODE_READERS)
+  ) node_fetch_stage (
+      .clk_i,
+      .rst_i,
+      .set_mask_i(node_set_mask_i),
+      .ways_i(node_ways_i),
+      .mshrs_i(node_mshrs_i),
+      .hit_latency_i(node_hit_latency_i),
+      .node_base_i,
+      .node_stride_i,
+      .masked_nodes_i,
+      .bare_base_i,
+      .bare_stride_i,
+      .full_mask_i(ENTRIES > 0 ? LANE_BITS'(full_index_i) : {LANE_BITS{1'b1}}),
+      .requests_valid_i(valid[`CTU_SCHEDULER_TO_NODE]),
+      .requests_data_i(scheduler_to_node_out),
+      .requests_pop_o(pop[`CTU_SCHEDULER_TO_NODE]),
+      .fills_valid_i(valid[`CTU_MEMORY_TO_NODE]),
+      .fills_data_i(memory_to_node_out),
+      .fills_pop_o(pop[`CTU_MEMORY_TO_NODE]),
+      .misses_ready_i(ready[`CTU_NODE_TO_MEMORY]),
+      .misses_push_o(push[`CTU_NODE_TO_MEMORY]),
+      .misses_data_o(node_to_memory_in),
+      .done_ready_i(ready[`CTU_NODE_TO_BOX]),
+      .done_push_o(push[`CTU_NODE_TO_BOX]),
+      .done_data_o(node_to_box_in),
+      .activity_o(activity_o[4*`CTU_NODE_FETCH+:4]),
+      .node_slot_i(node_slot),
+      .node_boxes_o(node_boxes),
+      .node_children_o(node_children),
+      .node_masks_o(node_masks),
+      .node_full_o(node_full)
+  );
+
+  logic tested_push, tested_ready;
+  logic [NODE-1:0] tested;
+  box_test #(
+      .SLOT_BITS(SLOT_BITS),
+      .LATENCY(BOX_LATENCY),
+      .INNER(HAS_MASK_TEST)
+  ) box_test_stage (
+      .clk_i,
+      .rst_i,
+      .node_valid_i(valid[`CTU_NODE_TO_BOX]),
+      .node_data_i(node_to_box_out),
+      .node_pop_o(pop[`CTU_NODE_TO_BOX]),
+      .tested_ready_i(tested_ready),
+      .tested_push_o(tested_push),
+      .tested_data_o(tested),
+      .ray_slot_o(box_slot),
+      .ray_origin_i(box_ray[ORIGIN+:96]),
+      .ray_rcp_down_i(box_setup[RCP_DOWN+:96]),
+      .ray_rcp_up_i(box_setup[RCP_UP+:96]),
+      .ray_zero_axes_i(box_ray[ZERO_AXES+:3]),
+      .ray_negative_axes_i(box_ray[NEGATIVE_AXES+:3]),
+      .ray_tmin_i(box_ray[TMIN+:32]),
+      .best_t_i(box_best[96+:32]),
+      .boxes_i(node_boxes[0+:768]),
+      .times_write_o(times_write),
+      .times_slot_o(times_write_slot),
+      .times_near_down_o(near_down_written),
+      .times_near_up_o(near_up_written),
+      .times_far_down_o(far_down_written),
+      .times_far_up_o(far_up_written),
+      .times_t0_o(t0_written),
+      .times_t1_o(t1_written),
+      .activity_o(activity_o[4*`CTU_BOX_TEST+:4])
+  );
+
+  // From the lanes hit to those that pass.
+  logic survivors_valid, survivors_pop;
+  logic [NODE-1:0] survivors;
+  generate
+    if (HAS_MASK_TEST) begin : g_culling
+      `CTU_LINK(box_to_locate, `CTU_BOX_TO_LOCATE, NODE)
+      `CTU_LINK(locate_to_mask, `CTU_LOCATE_TO_MASK, NODE)
+      `CTU_LINK(mask_to_sort, `CTU_MASK_TO_SORT, NODE)
+      `CTU_NO_LINK(`CTU_BOX_TO_SORT)
+      assign push[`CTU_BOX_TO_LOCATE] = tested_push;
+      assign box_to_locate_in = tested;
+      assign tested_ready = ready[`CTU_BOX_TO_LOCATE];
+      assign survivors_valid = valid[`CTU_MASK_TO_SORT];
+      assign survivors = mask_to_sort_out;
+      assign pop[`CTU_MASK_TO_SORT] = survivors_pop;
+
+      localparam int TIMES = 4 * 384 + 128;
+      logic [383:0] near_down, near_up, far_down, far_up;
+      logic [127:0] t1;
+      context_file #(
+          .WIDTH(TIMES),
+          .SLOT_BITS(SLOT_BITS)
+      ) slab_times (
+          .clk_i,
+          .write_i(times_write),
+          .write_slot_i(times_write_slot),
+          .write_data_i({t1_written, far_up_written, far_down_written, near_up_written, near_down_written}),
+          .read_slot_i(locate_slot),
+          .read_data_o({t1, far_up, far_down, near_up, near_down})
+      );
+
+      logic [SLOT_BITS-1:0] key_slot, mask_slot, key_write_slot;
+      logic [UNITS-1:0] key_write;
+      logic [2*UNITS-1:0] key_lane;
+      logic [UNITS*KEY_BITS-1:0] keys_located;
+      assign node_slot[2*SLOT_BITS+:2*SLOT_BITS] = {mask_slot, locate_slot};
+      cell_locate #(
+          .COMPARATORS(COMPARATORS),
+          .R(R),
+          .R_RAY(R_RAY),
+          .UNITS(UNITS),
+          .LATENCY(LOCATE_LATENCY),
+          .SLOT_BITS(SLOT_BITS)
+      ) cell_locate_stage (
+          .clk_i,
+          .rst_i,
+          .tested_valid_i(valid[`CTU_BOX_TO_LOCATE]),
+          .tested_data_i(box_to_locate_out),
+          .tested_pop_o(pop[`CTU_BOX_TO_LOCATE]),
+          .located_ready_i(ready[`CTU_LOCATE_TO_MASK]),
+          .located_push_o(push[`CTU_LOCATE_TO_MASK]),
+          .located_data_o(locate_to_mask_in),
+          .context_slot_o(locate_slot),
+          .times_near_down_i(near_down),
+          .times_near_up_i(near_up),
+          .times_far_down_i(far_down),
+          .times_far_up_i(far_up),
+          .times_t0_i(locate_t0),
+          .times_t1_i(t1),
+          .boxes_i(node_boxes[2*768+:768]),
+          .full_lanes_i(node_full[8+:4]),
+          .ray_origin_i(locate_ray[ORIGIN+:96]),
+          .ray_zero_axes_i(locate_ray[ZERO_AXES+:3]),
+          .ray_negative_axes_i(locate_ray[NEGATIVE_AXES+:3]),
+          .key_write_o(key_write),
+          .key_slot_o(key_write_slot),
+          .key_lane_o(key_lane),
+          .key_o(keys_located),
+          .activity_o(activity_o[4*`CTU_CELL_LOCATE+:4])
+      );
+
+      // Keys or touched cells by context, a file for each lane, as the lanes of a node are located one after the other.
+      logic [4*KEY_BITS-1:0] keys;
+      for (genvar lane = 0; lane < 4; lane++) begin : g_keys
+        logic [UNITS-1:0] write;
+        for (genvar unit = 0; unit < UNITS; unit++) begin : g_unit
+          assign write[unit] = key_write[unit] && key_lane[2*unit+:2] == 2'(lane);
+        end
+        context_file #(
+            .WIDTH(KEY_BITS),
+            .SLOT_BITS(SLOT_BITS),
+            .WRITES(UNITS)
+        ) file (
+            .clk_i,
+            .write_i(write),
+            .write_slot_i({UNITS{key_write_slot}}),
+            .write_data_i(keys_located),
+            .read_slot_i(key_slot),
+            .read_data_o(keys[KEY_BITS*lane+:KEY_BITS])
+        );
+      end
+
+      mask_test #(
+          .DESIGN(DESIGN),
+          .R(R),
+          .R_RAY(R_RAY),
+          .ENTRIES(ENTRIES),
+          .DISTINCT(DISTINCT),
+          .PROJECTION_TABLES(PROJECTION_TABLES),
+          .BANKS(BANKS),
+          .PORTS(PORTS),
+          .ROWS(ROWS),
+          .LATENCY(MASK_LATENCY),
+          .SECOND_LATENCY(MASK_SECOND_LATENCY),
+          .SLOT_BITS(SLOT_BITS)
+      ) mask_test_stage (
+          .clk_i,
+          .rst_i,
+          .located_valid_i(valid[`CTU_LOCATE_TO_MASK]),
+          .located_data_i(locate_to_mask_out),
+          .located_pop_o(pop[`CTU_LOCATE_TO_MASK]),
+          .survivors_ready_i(ready[`CTU_MASK_TO_SORT]),
+          .survivors_push_o(push[`CTU_MASK_TO_SORT]),
+          .survivors_data_o(mask_to_sort_in),
+          .key_slot_o(key_slot),
+          .key_i(keys),
+          .mask_slot_o(mask_slot),
+          .mask_i(node_masks[12*LANE_BITS+:4*LANE_BITS]),
+          .row_slot_o(),
+          .row_i(4'd0),  // tables are on chip
+          .load_valid_i,
+          .load_table_i,
+          .load_row_i,
+          .load_data_i,
+          .left_out_o(row_left_out_o),
+          .activity_o(activity_o[4*`CTU_MASK_TEST+:4])
+      );
+    end else begin : g_no_culling
+      `CTU_LINK(box_to_sort, `CTU_BOX_TO_SORT, NODE)
+      `CTU_NO_LINK(`CTU_BOX_TO_LOCATE)
+      `CTU_NO_LINK(`CTU_LOCATE_TO_MASK)
+      `CTU_NO_LINK(`CTU_MASK_TO_SORT)
+      assign push[`CTU_BOX_TO_SORT] = tested_push;
+      assign box_to_sort_in = tested;
+      assign tested_ready = ready[`CTU_BOX_TO_SORT];
+      assign survivors_valid = valid[`CTU_BOX_TO_SORT];
+      assign survivors = box_to_sort_out;
+      assign pop[`CTU_BOX_TO_SORT] = survivors_pop;
+      assign locate_slot = '0;
+      assign row_left_out_o = 1'b0;
+      assign activity_o[4*`CTU_CELL_LOCATE+:4] = `CTU_IDLE;
+      assign activity_o[4*`CTU_MASK_TEST+:4] = `CTU_IDLE;
+    end
+  endgenerate
+
+  child_sort #(
+      .SLOT_BITS(SLOT_BITS),
+      .LATENCY(SORT_LATENCY)
+  ) child_sort_stage (
+      .clk_i,
+      .rst_i,
+      .survivors_valid_i(survivors_valid),
+      .survivors_data_i(survivors),
+      .survivors_pop_o(survivors_pop),
+      .sorted_ready_i(ready[`CTU_SORT_TO_STACK]),
+      .sorted_push_o(push[`CTU_SORT_TO_STACK]),
+      .sorted_data_o(sort_to_stack_in),
+      .times_slot_o(sort_slot),
+      .times_t0_i(sort_t0),
+      .activity_o(activity_o[4*`CTU_CHILD_SORT+:4])
+  );
+
+  logic spills_ready, spills_push, refills_valid, refills_pop;
+  logic [REQUEST+LINE-1:0] spills;
+  logic [RESPONSE-1:0] refills;
+  generate
+    if (HAS_SPILLS) begin : g_spills
+      `CTU_LINK(stack_to_memory, `CTU_STACK_TO_MEMORY, REQUEST + LINE)
+      `CTU_LINK(memory_to_stack, `CTU_MEMORY_TO_STACK, RESPONSE)
+      assign push[`CTU_STACK_TO_MEMORY] = spills_push;
+      assign stack_to_memory_in = spills;
+      assign spills_ready = ready[`CTU_STACK_TO_MEMORY];
+      assign refills_valid = valid[`CTU_MEMORY_TO_STACK];
+      assign refills = memory_to_stack_out;
+      assign pop[`CTU_MEMORY_TO_STACK] = refills_pop;
+    end else begin : g_no_spills
+      `CTU_NO_LINK(`CTU_STACK_TO_MEMORY)
+      `CTU_NO_LINK(`CTU_MEMORY_TO_STACK)
+      assign spills_ready = 1'b0;
+      assign refills_valid = 1'b0;
+      assign refills = '0;
+    end
+  endgenerate
+  traversal_stack #(
+      .SLOT_BITS(SLOT_BITS),
+      .MAX_ENTRIES(STACK_ENTRIES),
+      .ADDRESS_BITS(ADDRESS_BITS),
+      .LINE_BYTES(LINE_BYTES),
+      .HAS_SPILLS(HAS_SPILLS)
+  ) traversal_stack_stage (
+      .clk_i,
+      .rst_i,
+      .entries_i(stack_entries_i),
+      .push_width_i,
+      .spill_batch_i,
+      .spill_base_i,
+      .spill_region_i,
+      .sorted_valid_i(valid[`CTU_SORT_TO_STACK]),
+      .sorted_data_i(sort_to_stack_out),
+      .sorted_pop_o(pop[`CTU_SORT_TO_STACK]),
+      .leaf_done_valid_i(valid[`CTU_HIT_TO_STACK]),
+      .leaf_done_data_i(hit_to_stack_out),
+      .leaf_done_pop_o(pop[`CTU_HIT_TO_STACK]),
+      .refills_valid_i(refills_valid),
+      .refills_data_i(refills),
+      .refills_pop_o(refills_pop),
+      .to_scheduler_ready_i(ready[`CTU_STACK_TO_SCHEDULER]),
+      .to_scheduler_push_o(push[`CTU_STACK_TO_SCHEDULER]),
+      .to_scheduler_data_o(stack_to_scheduler_in),
+      .to_result_ready_i(ready[`CTU_STACK_TO_RESULT]),
+      .to_result_push_o(push[`CTU_STACK_TO_RESULT]),
+      .to_result_data_o(stack_to_result_in),
+      .spills_ready_i(spills_ready),
+      .spills_push_o(spills_push),
+      .spills_data_o(spills),
+      .slot_o(stack_slot),
+      .children_i(node_children[128+:128]),
+      .t0_i(stack_t0),
+      .best_t_i(stack_best[96+:32]),
+      .visit_valid_o(),
+      .visit_slot_o(),
+      .activity_o(activity_o[4*`CTU_TRAVERSAL_STACK+:4])
+  );
+
+  logic [SLOT_BITS-1:0] leaf_slot;
+  logic [3:0] leaf_index;
+  logic [287:0] leaf_vertices;
+  logic [31:0] leaf_primitive;
+  leaf_fetch #(
+      .SLOT_BITS(SLOT_BITS),
+      .ADDRESS_BITS(ADDRESS_BITS),
+      .LINE_BYTES(LINE_BYTES),
+      .PORTS(LEAF_PORTS),
+      .MAX_SETS(MAX_SETS),
+      .MAX_WAYS(MAX_WAYS),
+      .MAX_MSHRS(MAX_MSHRS),
+      .MAX_HIT_LATENCY(MAX_HIT_LATENCY),
+      .MAX_LEAF_BYTES(MAX_LEAF_BYTES)
+  ) leaf_fetch_stage (
+      .clk_i,
+      .rst_i,
+      .set_mask_i(leaf_set_mask_i),
+      .ways_i(leaf_ways_i),
+      .mshrs_i(leaf_mshrs_i),
+      .hit_latency_i(leaf_hit_latency_i),
+      .triangle_base_i,
+      .triangle_stride_i,
+      .requests_valid_i(valid[`CTU_SCHEDULER_TO_LEAF]),
+      .requests_data_i(scheduler_to_leaf_out),
+      .requests_pop_o(pop[`CTU_SCHEDULER_TO_LEAF]),
+      .fills_valid_i(valid[`CTU_MEMORY_TO_LEAF]),
+      .fills_data_i(memory_to_leaf_out),
+      .fills_pop_o(pop[`CTU_MEMORY_TO_LEAF]),
+      .misses_ready_i(ready[`CTU_LEAF_TO_MEMORY]),
+      .misses_push_o(push[`CTU_LEAF_TO_MEMORY]),
+      .misses_data_o(leaf_to_memory_in),
+      .done_ready_i(ready[`CTU_LEAF_TO_TRIANGLE]),
+      .done_push_o(push[`CTU_LEAF_TO_TRIANGLE]),
+      .done_data_o(leaf_to_triangle_in),
+      .activity_o(activity_o[4*`CTU_LEAF_FETCH+:4]),
+      .triangle_slot_i(leaf_slot),
+      .triangle_index_i(leaf_index),
+      .triangle_vertices_o(leaf_vertices),
+      .triangle_primitive_o(leaf_primitive)
+  );
+
+  triangle_test #(
+      .SLOT_BITS(SLOT_BITS),
+      .LATENCY(TRIANGLE_LATENCY)
+  ) triangle_test_stage (
+      .clk_i,
+      .rst_i,
+      .interval_i(triangle_interval_i),
+      .leaf_valid_i(valid[`CTU_LEAF_TO_TRIANGLE]),
+      .leaf_data_i(leaf_to_triangle_out),
+      .leaf_pop_o(pop[`CTU_LEAF_TO_TRIANGLE]),
+      .tested_ready_i(ready[`CTU_TRIANGLE_TO_HIT]),
+      .tested_push_o(push[`CTU_TRIANGLE_TO_HIT]),
+      .tested_data_o(triangle_to_hit_in),
+      .best_slot_o(triangle_best_slot),
+      .best_t_i(triangle_best[96+:32]),
+      .ray_slot_o(triangle_ray_slot),
+      .ray_origin_i(triangle_ray[ORIGIN+:96]),
+      .ray_direction_z_i(triangle_ray[DIRECTION_Z+:32]),
+      .ray_kx_i(triangle_ray[KX+:2]),
+      .ray_ky_i(triangle_ray[KY+:2]),
+      .ray_kz_i(triangle_ray[KZ+:2]),
+      .ray_sx_i(triangle_setup[SX+:32]),
+      .ray_sy_i(triangle_setup[SY+:32]),
+      .ray_tmin_i(triangle_ray[TMIN+:32]),
+      .triangle_slot_o(leaf_slot),
+      .triangle_index_o(leaf_index),
+      .triangle_i({leaf_primitive, leaf_vertices}),
+      .activity_o(activity_o[4*`CTU_TRIANGLE_TEST+:4])
+  );
+
+  hit_update #(
+      .SLOT_BITS(SLOT_BITS),
+      .LATENCY(HIT_LATENCY)
+  ) hit_update_stage (
+      .clk_i,
+      .rst_i,
+      .tested_valid_i(valid[`CTU_TRIANGLE_TO_HIT]),
+      .tested_data_i(triangle_to_hit_out),
+      .tested_pop_o(pop[`CTU_TRIANGLE_TO_HIT]),
+      .done_ready_i(ready[`CTU_HIT_TO_STACK]),
+      .done_push_o(push[`CTU_HIT_TO_STACK]),
+      .done_data_o(hit_to_stack_in),
+      .best_slot_o(hit_slot),
+      .best_t_i(hit_best[96+:32]),
+      .best_primitive_i(hit_best[31:0]),
+      .best_any_hit_i(hit_ray[ANY_HIT]),
+      .best_write_o(best_write),
+      .best_t_o(best_written[96+:32]),
+      .best_u_o(best_written[64+:32]),
+      .best_v_o(best_written[32+:32]),
+      .best_primitive_o(best_written[31:0]),
+      .activity_o(activity_o[4*`CTU_HIT_UPDATE+:4])
+  );
+
+  result_queue #(
+      .SLOT_BITS(SLOT_BITS)
+  ) result_queue_stage (
+      .clk_i,
+      .rst_i,
+      .interval_i(result_interval_i),
+      .from_stack_valid_i(valid[`CTU_STACK_TO_RESULT]),
+      .from_stack_data_i(stack_to_result_out),
+      .from_stack_pop_o(pop[`CTU_STACK_TO_RESULT]),
+      .from_rays_valid_i(valid[`CTU_RAY_TO_RESULT]),
+      .from_rays_data_i(ray_to_result_out),
+      .from_rays_pop_o(pop[`CTU_RAY_TO_RESULT]),
+      .freed_ready_i(ready[`CTU_RESULT_TO_RAY]),
+      .freed_push_o(push[`CTU_RESULT_TO_RAY]),
+      .freed_data_o(result_to_ray_in),
+      .return_valid_o,
+      .return_slot_o,
+      .activity_o(activity_o[4*`CTU_RESULT_QUEUE+:4])
+  );
+
+  // Clients of memory: node_fetch, leaf_fetch, and where there is one the stack, whose requests alone carry a line.
+  logic [CLIENTS-1:0] requests_valid, requests_pop, answers_ready, answers_push;
+  logic [CLIENTS*REQUEST-1:0] requests;
+  logic [RESPONSE-1:0] answer;
+  logic [LINE-1:0] written_line;
+  assign requests_valid[1:0] = {valid[`CTU_LEAF_TO_MEMORY], valid[`CTU_NODE_TO_MEMORY]};
+  assign requests[0+:2*REQUEST] = {leaf_to_memory_out, node_to_memory_out};
+  assign {pop[`CTU_LEAF_TO_MEMORY], pop[`CTU_NODE_TO_MEMORY]} = requests_pop[1:0];
+  assign answers_ready[1:0] = {ready[`CTU_MEMORY_TO_LEAF], ready[`CTU_MEMORY_TO_NODE]};
+  assign {push[`CTU_MEMORY_TO_LEAF], push[`CTU_MEMORY_TO_NODE]} = answers_push[1:0];
+  assign memory_to_node_in = answer;
+  assign memory_to_leaf_in = answer;
+  generate
+    if (HAS_SPILLS) begin : g_stack_client
+      assign requests_valid[2] = valid[`CTU_STACK_TO_MEMORY];
+      assign requests[2*REQUEST+:REQUEST] = g_spills.stack_to_memory_out[LINE+:REQUEST];
+      assign pop[`CTU_STACK_TO_MEMORY] = requests_pop[2];
+      assign answers_ready[2] = ready[`CTU_MEMORY_TO_STACK];
+      assign push[`CTU_MEMORY_TO_STACK] = answers_push[2];
+      assign g_spills.memory_to_stack_in = answer;
+      assign written_line = g_spills.stack_to_memory_out[LINE-1:0];
+    end else begin : g_no_stack_client
+      assign written_line = '0;
+    end
+  endgenerate
+  assign mem_asked_o = requests_valid;
+  memory_port #(
+      .CLIENTS(CLIENTS),
+      .ADDRESS_BITS(ADDRESS_BITS),
+      .LINE_BYTES(LINE_BYTES)
+  ) memory_port_stage (
+      .clk_i,
+      .rst_i,
+      .requests_valid_i(requests_valid),
+      .requests_data_i(requests),
+      .write_data_i(written_line),
+      .requests_pop_o(requests_pop),
+      .answers_ready_i(answers_ready),
+      .answers_push_o(answers_push),
+      .answers_data_o(answer),
+      .activity_o(activity_o[4*`CTU_MEMORY_PORT+:4]),
+      .mem_address_o,
+      .mem_accepts_i(mem_can_accept_i),
+      .mem_request_o(mem_request_valid_o),
+      .mem_request_client_o,
+      .mem_request_data_o({mem_request_address_o, mem_request_id_o, mem_request_write_o}),
+      .mem_write_data_o(mem_request_data_o),
+      .mem_answer_valid_i,
+      .mem_answer_client_i,
+      .mem_answer_data_i({mem_answer_id_i, mem_answer_data_i}),
+      .mem_answer_take_o,
+      .mem_busy_i
+  );
+
+  `CTU_NO_LINK(`CTU_LOCATE_TO_TABLE)
+  `CTU_NO_LINK(`CTU_TABLE_TO_MASK)
+  `CTU_NO_LINK(`CTU_TABLE_TO_MEMORY)
+  `CTU_NO_LINK(`CTU_MEMORY_TO_TABLE)
+  assign activity_o[4*`CTU_TABLE_FETCH+:4] = `CTU_IDLE;
+endmodule

@@ -1,0 +1,148 @@
+#include "sim/cosim/rtl_builds.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "model/base/error.h"
+#include "model/pipeline/unit_image.h"
+
+namespace ctu::cosim {
+namespace {
+
+constexpr int kMaxHitLatency = 31;  ///< unit_bench.sv
+
+/// Rows of dedup's second memory.
+std::uint64_t distinct_rows(const pipeline::UnitConfig& config, const pipeline::Work& work) {
+  const cull::OnChipTables tables(work.tester, config.mask_test.rows, config.mask_test.projection_tables);
+  return tables.tables()[1].rows;
+}
+
+/// Collects what does not fit.
+class Misfits {
+ public:
+  template <class Value>
+  void same(const char* what, const Value& is, const Value& wanted) {
+    if (is != wanted) add(fmt::format("{} {} instead of {}", what, is, wanted));
+  }
+  void at_most(const char* what, int limit, int wanted) {
+    if (wanted > limit) add(fmt::format("{} up to {} instead of {}", what, limit, wanted));
+  }
+  void at_least(const char* what, int limit, int wanted) {
+    if (wanted < limit) add(fmt::format("{} from {} on instead of {}", what, limit, wanted));
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void add(const std::string& what) { text_ += (text_.empty() ? "" : ", ") + what; }
+  std::string text_;
+};
+
+void check_cache(Misfits& misfits, const std::string& name, const RtlParameters& build,
+                 const pipeline::CacheConfig& cache, int ports) {
+  misfits.same((name + ".ports").c_str(), ports, cache.ports);
+  if (cache.bytes > 0) {
+    misfits.at_most((name + ".ways").c_str(), build.max_ways, cache.ways);
+    misfits.at_most(("sets of " + name).c_str(), build.max_sets, cache.bytes / build.line_bytes / cache.ways);
+  }
+  misfits.at_most((name + ".mshrs").c_str(), build.max_mshrs, cache.mshrs);
+  misfits.at_most((name + ".hit_latency").c_str(), kMaxHitLatency, cache.hit_latency);
+}
+
+void check_mask_test(Misfits& misfits, const RtlParameters& build, const pipeline::UnitConfig& config,
+                     const pipeline::Work& work) {
+  const cull::MaskOptions& masks = work.tester.options();
+  misfits.same("R", build.resolution, masks.resolution);
+  misfits.same("compressed masks", build.entries > 0, masks.entries > 0);
+  misfits.at_most("entries", build.entries, masks.entries);
+  const bool comparators = build.design == cull::Design::Comparators;
+  if (!comparators) misfits.same("R_ray", build.ray_resolution, masks.ray_resolution);
+  if (comparators) {
+    misfits.same("comparators.units", build.locate_units, config.comparators.units);
+    misfits.same("comparators.latency", build.locate_latency, config.comparators.latency);
+  } else {
+    misfits.same("cell_locate.units", build.locate_units, config.cell_locate.units);
+    misfits.same("cell_locate.latency", build.locate_latency, config.cell_locate.latency);
+    misfits.same("mask_test.rows", cull::to_string(build.rows), cull::to_string(config.mask_test.rows));
+  }
+  if (build.design == cull::Design::Projection)
+    misfits.same("mask_test.projection_tables", build.projection_tables, config.mask_test.projection_tables);
+  misfits.same("table_cache", build.table_cache, config.table_cache.bytes > 0);
+  if (build.table_cache) {
+    misfits.same("table_cache.ports", build.table_ports, config.table_cache.ports);
+  } else {
+    misfits.same("mask_test.banks", build.banks, config.mask_test.banks);
+    misfits.same("mask_test.ports", build.ports, config.mask_test.ports);
+  }
+  misfits.same("mask_test.latency", build.mask_latency, config.mask_test.latency);
+  if (build.design != cull::Design::Dedup) return;
+  if (!build.table_cache)
+    misfits.same("mask_test.second_latency", build.mask_second_latency, config.mask_test.second_latency);
+  misfits.same("distinct ray masks", static_cast<std::uint64_t>(build.distinct), distinct_rows(config, work));
+}
+
+std::string library_folder(const std::string& given) {
+  if (!given.empty()) return given;
+  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rtl").string();
+}
+
+std::vector<std::string> libraries_in(const std::string& folder) {
+  std::vector<std::string> libraries;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().extension() == ".so") libraries.push_back(entry.path().string());
+  std::sort(libraries.begin(), libraries.end());
+  return libraries;
+}
+
+}  // namespace
+
+std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& config, const pipeline::Work& work) {
+  Misfits misfits;
+  misfits.same("mask_test.design", cull::to_string(build.design), cull::to_string(config.mask_test.design));
+  misfits.same("memory.line_bytes", build.line_bytes, config.memory.line_bytes);
+  misfits.at_most("unit.contexts", 1 << build.slot_bits, config.unit.contexts);
+  misfits.at_most("stack.entries", build.stack_entries, config.stack.entries);
+  if (3 * work.image.depth > config.stack.entries) misfits.same("spills", build.has_spills, true);
+  misfits.at_least("ray_setup.interval", build.ray_interval, config.ray_setup.interval);
+  misfits.same("ray_setup.latency", build.ray_setup_latency, config.ray_setup.latency);
+  misfits.same("box_test.latency", build.box_latency, config.box_test.latency);
+  misfits.same("child_sort.latency", build.sort_latency, config.child_sort.latency);
+  misfits.same("triangle_test.latency", build.triangle_latency, config.triangle_test.latency);
+  misfits.same("hit_update.latency", build.hit_latency, config.hit_update.latency);
+  check_cache(misfits, "node_cache", build, config.node_cache, build.node_ports);
+  check_cache(misfits, "leaf_cache", build, config.leaf_cache, build.leaf_ports);
+  if (build.design == config.mask_test.design && build.design != cull::Design::None)
+    check_mask_test(misfits, build, config, work);
+  return misfits.text();
+}
+
+std::unique_ptr<RtlUnit> load_rtl_unit(const std::string& library) {
+  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  using Make = RtlUnit* (*)();
+  const auto make = handle == nullptr ? nullptr : reinterpret_cast<Make>(dlsym(handle, "ctu_make_rtl_unit"));
+  if (make == nullptr) throw Error(library, dlerror(), "build it again: `./dev rtl`");
+  return std::unique_ptr<RtlUnit>(make());
+}
+
+std::unique_ptr<RtlUnit> make_rtl_unit(const pipeline::UnitConfig& config, const pipeline::Work& work,
+                                       const std::string& folder) {
+  const std::string where = library_folder(folder);
+  std::string reasons;
+  for (const std::string& library : libraries_in(where)) {
+    std::unique_ptr<RtlUnit> unit = load_rtl_unit(library);
+    const std::string reason = misfit(unit->parameters(), config, work);
+    if (reason.empty()) return unit;
+    reasons += fmt::format("\n  {}: {}", unit->parameters().name, reason);
+  }
+  if (reasons.empty())
+    throw Error(where, "no build of the RTL unit is there", "install verilator and build: `./dev rtl`");
+  throw Error("--engine", "no build of the RTL unit has this configuration:" + reasons,
+              "change the configuration, or add a build to sim/cosim/CMakeLists.txt");
+}
+
+}  // namespace ctu::cosim

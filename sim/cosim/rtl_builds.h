@@ -1,0 +1,22 @@
+// The builds of the RTL unit that are at hand, and which of them can run a configuration.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "model/pipeline/work.h"
+#include "sim/cosim/rtl_unit.h"
+
+namespace ctu::cosim {
+
+/// Why the build cannot run this; empty when it can.
+std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& config, const pipeline::Work& work);
+
+/// A unit of the first build that can; libraries lie in the folder `rtl` beside the program, or where `folder` says.
+/// Throws Error that says of each build what does not fit.
+std::unique_ptr<RtlUnit> make_rtl_unit(const pipeline::UnitConfig& config, const pipeline::Work& work,
+                                       const std::string& folder = {});
+/// The unit of one library. Throws Error when it cannot be loaded.
+std::unique_ptr<RtlUnit> load_rtl_unit(const std::string& library);
+
+}  // namespace ctu::cosim

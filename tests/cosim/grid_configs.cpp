@@ -1,0 +1,113 @@
+#include "tests/cosim/grid_configs.h"
+
+#include <charconv>
+#include <sstream>
+
+#include "model/base/error.h"
+#include "model/pipeline/parameter.h"
+
+namespace ctu::cosim {
+namespace {
+
+void set(pipeline::UnitConfig& config, const std::string& key, const std::string& value) {
+  for (const pipeline::Parameter& parameter : pipeline::parameters()) {
+    if (parameter.key != key) continue;
+    std::int64_t number = 0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    const bool is_number = error == std::errc() && end == value.data() + value.size();
+    parameter.set(config, is_number ? pipeline::ParameterValue(number) : pipeline::ParameterValue(value));
+    return;
+  }
+  throw Error(key, "is no parameter of the unit", "see `ctusim config show`");
+}
+
+}  // namespace
+
+const std::vector<GridConfig>& grid_configs() {
+  static const std::vector<GridConfig> configs = {
+      // The default unit, and what time depends on around it.
+      {"projection", "", 0, true},
+      {"projection", "", 11, true},
+      {"projection", "unit.contexts=1", 0, true},
+      {"projection", "unit.contexts=2", 12},
+      {"projection", "unit.contexts=7 scheduler.policy=round-robin", 13},
+      {"projection", "unit.contexts=64 scheduler.policy=round-robin", 0, true},
+      {"projection", "unit.contexts=64 node_cache.mshrs=1 leaf_cache.mshrs=2", 14},
+      {"projection", "node_cache.bytes=128 node_cache.ways=1 leaf_cache.bytes=128 leaf_cache.ways=1", 0, true},
+      {"projection", "node_cache.bytes=0 leaf_cache.bytes=0", 15, true},
+      {"projection", "node_cache.bytes=4096 node_cache.ways=8 leaf_cache.bytes=2048 leaf_cache.ways=2", 16},
+      {"projection", "node_cache.hit_latency=1 leaf_cache.hit_latency=20", 0},
+      {"projection", "memory.model=ideal memory.latency=1 memory.interval=1", 0, true},
+      {"projection", "memory.model=ideal memory.latency=200 memory.interval=7", 17},
+      {"projection", "memory.model=ideal memory.latency=50 memory.interval=1 unit.contexts=5", 18},
+      {"projection", "memory.channels=1 memory.queue_depth=1", 0},
+      {"projection", "memory.t_rfc=0 memory.burst=40", 19},
+      {"projection", "stack.entries=1 stack.push_width=1 stack.spill_batch=1", 0, true},
+      {"projection", "stack.entries=3 stack.push_width=3 stack.spill_batch=2", 20},
+      {"projection", "stack.entries=8 stack.push_width=2 stack.spill_batch=8 unit.contexts=64", 21, true},
+      {"projection", "ray_setup.interval=9 result.interval=30 triangle_test.interval=5", 22},
+      // Another depth of everything, and the designs of the mask test.
+      {"none", "", 0, true},
+      {"none", "unit.contexts=3", 30, true},
+      {"none", "memory.model=ideal memory.latency=3 memory.interval=1 stack.entries=2 stack.spill_batch=1", 31},
+      {"mask-lut", "", 0, true},
+      {"mask-lut", "node_cache.bytes=1024 node_cache.ways=2", 32, true},
+      {"mask-lut", "unit.contexts=20 memory.model=ideal memory.latency=20 memory.interval=2", 33},
+      {"mask-lut-256", "", 0},
+      {"mask-lut-256", "unit.contexts=16 stack.entries=2 stack.spill_batch=2", 34},
+      {"projection-r6", "", 0},
+      {"projection-r6", "unit.contexts=24", 35},
+      {"projection-r6", "node_cache.bytes=0 memory.model=ideal memory.latency=90 memory.interval=1", 36},
+      {"bit-table", "", 0, true},
+      {"bit-table", "unit.contexts=5 node_cache.bytes=512 node_cache.ways=4", 37},
+      {"bit-table", "memory.model=ideal memory.latency=9 memory.interval=3", 38},
+      {"dedup", "", 0, true},
+      {"dedup", "unit.contexts=9 scheduler.policy=round-robin", 39, true},
+      {"dedup", "memory.model=ideal memory.latency=40 memory.interval=1", 40},
+      {"comparators", "", 0, true},
+      {"comparators", "unit.contexts=13 node_cache.bytes=256 node_cache.ways=1", 41},
+      {"comparators-r6", "", 0},
+      {"comparators-r6", "unit.contexts=18", 42},
+      {"projection-r-ray-8", "", 43},
+      {"projection-r-ray-8", "unit.contexts=6 scheduler.policy=round-robin", 44},
+  };
+  return configs;
+}
+
+pipeline::UnitConfig unit_config(const RtlParameters& build, const std::string& settings) {
+  pipeline::UnitConfig config;
+  config.mask_test.design = build.design;
+  config.mask_test.rows = build.rows;
+  config.mask_test.banks = build.banks;
+  config.mask_test.ports = build.ports;
+  config.mask_test.projection_tables = build.projection_tables;
+  config.mask_test.latency = build.mask_latency;
+  config.mask_test.second_latency = build.mask_second_latency;
+  config.cell_locate.units = config.comparators.units = build.locate_units;
+  config.cell_locate.latency = config.comparators.latency = build.locate_latency;
+  config.node_cache.ports = build.node_ports;
+  config.leaf_cache.ports = build.leaf_ports;
+  config.table_cache.ports = build.table_ports;
+  config.memory.line_bytes = build.line_bytes;
+  config.ray_setup.latency = build.ray_setup_latency;
+  config.box_test.latency = build.box_latency;
+  config.child_sort.latency = build.sort_latency;
+  config.triangle_test.latency = build.triangle_latency;
+  config.hit_update.latency = build.hit_latency;
+  std::istringstream words(settings);
+  for (std::string word; words >> word;) {
+    const auto equals = word.find('=');
+    set(config, word.substr(0, equals), equals == std::string::npos ? "" : word.substr(equals + 1));
+  }
+  return config;
+}
+
+cull::MaskOptions mask_options(const RtlParameters& build) {
+  cull::MaskOptions options;
+  options.resolution = build.resolution;
+  options.ray_resolution = build.ray_resolution;
+  options.entries = build.entries;
+  return options;
+}
+
+}  // namespace ctu::cosim
