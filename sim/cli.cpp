@@ -87,6 +87,7 @@ struct Parsed {
   CompressionArgs compression;
   HeatmapArgs heatmap;
   TablesArgs tables;
+  AreaArgs area;
   PaperArgs paper;
   TraceArgs trace;
   UnitArgs config;
@@ -197,6 +198,30 @@ void add_tables(CLI::App& app, Parsed& parsed) {
   command->callback([&] { parsed.exit_code = tables_command(parsed.tables); });
 }
 
+void add_area(CLI::App& app, Parsed& parsed) {
+  auto* command =
+      app.add_subcommand("area", "gates, flip-flops, memory bits and logic depth of the unit's RTL, by stage");
+  AreaArgs& args = parsed.area;
+  add_config_options(*command, args.unit);
+  command->add_option("--r", args.resolution, "R: cells per axis of an object mask, 2..8")->capture_default_str();
+  command->add_option("--r-ray", args.ray_resolution, "R_ray: cells per axis of the ray's key; 0: as --r")
+      ->capture_default_str();
+  command->add_option("--entries", args.entries, "of the compression LUT; 0: object masks are not compressed")
+      ->capture_default_str();
+  command->add_option("--stages", args.stages, "only these, by name: cell_locate,mask_test; none: all");
+  command->add_flag("--fpga", args.fpga, "also LUT4, DSP and block RAM of the Lattice ECP5 family");
+  command->add_option("--rtl", args.rtl, "folder of the RTL's sources; without it that of the source tree");
+  command->add_option(
+      "--cache", args.cache,
+      "folder for modules that were synthesised; without it ctusim/area in $XDG_CACHE_HOME or ~/.cache");
+  command->add_option("--yosys", args.yosys, "the program")->capture_default_str();
+  command->add_option("--threads", args.threads, "runs of yosys at a time; 0: one for each core")
+      ->capture_default_str();
+  command->add_flag("--json", args.json, "print JSON");
+  command->add_flag("--markdown", args.markdown, "print the rows of a Markdown table");
+  command->callback([&] { parsed.exit_code = area_command(parsed.area); });
+}
+
 void add_paper(CLI::App& app, Parsed& parsed) {
   auto* command =
       app.add_subcommand("paper", "the evaluation of a paper with our scenes, published values beside ours");
@@ -284,6 +309,7 @@ int run_cli(int argc, const char* const* argv) {
   add_compression(app, parsed);
   add_heatmap(app, parsed);
   add_tables(app, parsed);
+  add_area(app, parsed);
   add_paper(app, parsed);
   add_trace(app, parsed);
   add_config(app, parsed);

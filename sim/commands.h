@@ -105,6 +105,18 @@ struct TablesArgs {
   bool markdown = false;
 };
 
+struct AreaArgs {
+  UnitArgs unit;
+  int resolution = 4;
+  int ray_resolution = 0;  ///< 0: as resolution
+  int entries = 0;         ///< of the compression LUT; 0: masks are not compressed
+  std::string rtl, cache;  ///< folders; empty: those of the source tree and of the user
+  std::string yosys = "yosys";
+  std::string stages;  ///< list; empty: all
+  int threads = 0;     ///< 0: all
+  bool fpga = false, json = false, markdown = false;
+};
+
 struct PaperArgs {
   SceneArgs scene;  ///< size empty and spp 0: as the paper, or as `quick` says
   bool quick = false;
@@ -131,6 +143,7 @@ int decide_command(const DecideArgs& args);
 int compression_command(const CompressionArgs& args);
 int heatmap_command(const HeatmapArgs& args);
 int tables_command(const TablesArgs& args);
+int area_command(const AreaArgs& args);
 int paper_subspace_command(const PaperArgs& args);
 int trace_info_command(const TraceArgs& args);
 int trace_head_command(const TraceArgs& args);

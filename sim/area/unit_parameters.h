@@ -1,0 +1,18 @@
+// The parameters of rtl/ctu_unit.sv that make it the unit of a configuration, no larger than it needs.
+#pragma once
+
+#include <filesystem>
+
+#include "model/cull/options.h"
+#include "model/pipeline/unit_config.h"
+#include "sim/area/yosys.h"
+
+namespace ctu::area {
+
+/// Of masks count R, R_ray and the number of entries. Both caches have the sets, ways and miss registers of the larger
+/// one, as one parameter says it for both. The stack can spill. `top` is the source of the unit. Throws Error when the
+/// RTL does not have what the configuration asks for.
+RtlParameters unit_parameters(const pipeline::UnitConfig& config, const cull::MaskOptions& masks,
+                              const std::filesystem::path& top);
+
+}  // namespace ctu::area
