@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper variants compression tables designs; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper variants compression tables designs area; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants compression tables designs)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants compression tables designs area)
 
 page=docs/results.md
 plots=docs/plots
@@ -256,10 +256,41 @@ compression() {
   put compression
 }
 
+# Rows of one trace: cycles and area of each design. Columns of `area --markdown`: stage, instances, gates, flip-flops, gate
+# equivalents, memory bits, depth.
+area_rows() {  # MASKS DESIGNS ENTRIES
+  local masks=$1 entries=$3 design cycles
+  keep cycles "$program" compare "$scratch/area.ctut" --designs "$2" --markdown
+  for design in ${2//,/ }; do
+    cycles=$(awk -F' *[|] *' -v design="$design" '$3 == design { print $6 }' "$scratch/cycles")
+    keep row "$program" area --set "mask_test.design=$design" --entries "$entries" --markdown
+    awk -F' *[|] *' -v head="| $design | $masks | $cycles |" '
+      $2 == "cell_locate" || $2 == "mask_test" { gates += $6; bits += $7; if ($8 > depth) depth = $8 }
+      $2 == "all" { printf "%s %d | %d | %d | %d | %d | %d | %d |\n", head, gates, bits, depth, $6, $5, $7, $8 }' "$scratch/row"
+  done
+}
+
+area() {
+  local bunny
+  bunny=$(awk '$1 == "bunny" { print $2 }' "$index")
+  {
+    echo "| mask test | masks | cycles/ray | cull: gate equivalents | memory bits | depth | unit: gate equivalents | flip-flops | memory bits | depth |"
+    echo "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    keep log "$program" record "$(dirname "$index")/$bunny" -o "$scratch/area.ctut" --size 240x135
+    area_rows "64 bits" none,mask-lut,dedup,projection,comparators 0
+    keep log "$program" record "$(dirname "$index")/$bunny" -o "$scratch/area.ctut" --size 240x135 --compress 256
+    area_rows "of 256" mask-lut,bit-table,dedup,projection,comparators 256
+  } >"$scratch/area"
+  put area
+  keep stages "$program" area --markdown
+  cp "$scratch/stages" "$scratch/area-stages"
+  put area-stages
+}
+
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | variants | designs | tables | compression) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, variants, designs, tables or compression" >&2; exit 2 ;;
+    culling | auto | paper | variants | designs | tables | compression | area) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, variants, designs, tables, compression or area" >&2; exit 2 ;;
   esac
 done
 exit "$failed"

@@ -62,26 +62,41 @@ ModuleArea area_from(const json& value) {
   return area;
 }
 
-}  // namespace
-
-AreaCache::AreaCache(const std::filesystem::path& folder) : folder_(folder.empty() ? users_folder() : folder) {}
-
-std::optional<ModuleArea> AreaCache::find(const std::string& key) const {
-  std::ifstream in(file(key));
+template <class Value, class From>
+std::optional<Value> read_json(const std::filesystem::path& file, const From& from) {
+  std::ifstream in(file);
   if (!in) return std::nullopt;
   try {
-    return area_from(json::parse(in));
+    return from(json::parse(in));
   } catch (const json::exception&) {
     return std::nullopt;
   }
 }
 
-void AreaCache::keep(const std::string& key, const ModuleArea& area) const {
+}  // namespace
+
+AreaCache::AreaCache(const std::filesystem::path& folder) : folder_(folder.empty() ? users_folder() : folder) {}
+
+std::optional<ModuleArea> AreaCache::find(const std::string& key) const {
+  return read_json<ModuleArea>(file(key), area_from);
+}
+
+void AreaCache::keep(const std::string& key, const ModuleArea& area) const { write(key, to_json(area).dump()); }
+
+std::optional<AreaCache::Identities> AreaCache::find_identities(const std::string& key) const {
+  return read_json<Identities>(file(key), [](const json& value) { return value.get<Identities>(); });
+}
+
+void AreaCache::keep_identities(const std::string& key, const Identities& identities) const {
+  write(key, json(identities).dump());
+}
+
+void AreaCache::write(const std::string& key, const std::string& text) const {
   std::error_code ignored;
   std::filesystem::create_directories(folder_, ignored);
   // Under another name first: whoever reads at the same time sees all of it or nothing.
   const std::filesystem::path half = folder_ / fmt::format("{}.{}", key, getpid());
-  if (!(std::ofstream(half) << to_json(area).dump() << '\n')) return;
+  if (!(std::ofstream(half) << text << '\n')) return;
   std::filesystem::rename(half, file(key), ignored);
 }
 

@@ -29,15 +29,16 @@ std::vector<std::filesystem::path> sources_in(const std::filesystem::path& folde
   return sources;
 }
 
-/// Everything that a module's netlist depends on but its own name.
-std::string common_key(const std::vector<std::filesystem::path>& sources, const Yosys& yosys, Target target) {
+/// Everything that the elaborated unit depends on.
+std::string unit_key(const std::vector<std::filesystem::path>& sources, const Yosys& yosys, const AreaJob& job) {
   Hasher hasher;
-  hasher.add(yosys.version() + Yosys::synthesis_script(target));
+  hasher.add(yosys.version() + job.top);
+  for (const auto& [name, value] : job.parameters) hasher.add(fmt::format("{}={},", name, value));
   for (const auto& source : sources) {
     std::ifstream in(source, std::ios::binary);
     std::ostringstream text;
     text << in.rdbuf();
-    hasher.add(source.filename().string() + '\n' + text.str());
+    hasher.add(source.lexically_relative(job.rtl).string() + '\n' + text.str());
   }
   return hasher.digest().hex();
 }
@@ -45,11 +46,11 @@ std::string common_key(const std::vector<std::filesystem::path>& sources, const 
 /// Modules of one target: those of the cache, and those made now.
 class Library {
  public:
-  Library(const AreaJob& job, const Yosys& yosys, const std::vector<std::filesystem::path>& sources, Target target)
-      : yosys_(yosys), cache_(job.cache), target_(target), common_(common_key(sources, yosys, target)) {
-    for (const auto& [name, value] : job.parameters) parameters_ += fmt::format("{}={},", name, value);
-    top_ = job.top;
-  }
+  Library(const AreaJob& job, const Yosys& yosys, Target target)
+      : yosys_(yosys), cache_(job.cache), target_(target), top_(job.top) {}
+
+  /// What modules are, by name.
+  void identify(std::map<std::string, std::string> identities) { identities_ = std::move(identities); }
 
   /// Whether the module is at hand; then at() gives it.
   bool has(const std::string& module) {
@@ -122,17 +123,17 @@ class Library {
     ++made_;
   }
 
-  /// Names of modules tell their parameters, except the top module's.
   std::string key(const std::string& module) const {
     Hasher hasher;
-    hasher.add(common_ + module + (module == top_ ? parameters_ : ""));
+    hasher.add(yosys_.version() + Yosys::synthesis_script(target_) + identities_.at(module));
     return hasher.digest().hex();
   }
 
   const Yosys& yosys_;
   AreaCache cache_;
   Target target_;
-  std::string common_, parameters_, top_;
+  std::string top_;
+  std::map<std::string, std::string> identities_;
   std::map<std::string, ModuleArea> modules_;
   std::uint64_t cached_ = 0, made_ = 0;
 };
@@ -180,17 +181,24 @@ class Reporter {
     if (std::none_of(sources_.begin(), sources_.end(), is_top))
       throw Error(job.rtl.string(), fmt::format("{}.sv is not there", job.top),
                   "give the folder of the RTL's sources with --rtl");
-    gates_.emplace(job, yosys_, sources_, Target::Gates);
-    if (job.fpga) fpga_.emplace(job, yosys_, sources_, Target::Ecp5);
+    gates_.emplace(job, yosys_, Target::Gates);
+    if (job.fpga) fpga_.emplace(job, yosys_, Target::Ecp5);
   }
 
   AreaReport report() {
     AreaReport report;
-    if (job_.stages.empty() && gates_->has_all(job_.top) && (!fpga_ || fpga_->has_all(job_.top))) {
+    const AreaCache cache(job_.cache);
+    const std::string unit = unit_key(sources_, yosys_, job_);
+    const auto identities = cache.find_identities(unit);
+    if (identities) identify(*identities);
+    if (identities && job_.stages.empty() && gates_->has_all(job_.top) && (!fpga_ || fpga_->has_all(job_.top))) {
       for (const auto& [module, count] : gates_->at(job_.top).instances) add(report, module, count);
       add_top(report);
     } else {
-      synthesise(report);
+      const Elaboration rtl(yosys_.elaborate(sources_, job_.top, job_.parameters));
+      identify(rtl.identities(job_.top));
+      cache.keep_identities(unit, rtl.identities(job_.top));
+      synthesise(rtl, report);
     }
     std::sort(report.stages.begin(), report.stages.end(),
               [](const StageArea& a, const StageArea& b) { return a.module < b.module; });
@@ -205,8 +213,12 @@ class Reporter {
     return wanted.empty() || std::find(wanted.begin(), wanted.end(), plain_name(module)) != wanted.end();
   }
 
-  void synthesise(AreaReport& report) {
-    const Elaboration rtl(yosys_.elaborate(sources_, job_.top, job_.parameters));
+  void identify(const std::map<std::string, std::string>& identities) {
+    gates_->identify(identities);
+    if (fpga_) fpga_->identify(identities);
+  }
+
+  void synthesise(const Elaboration& rtl, AreaReport& report) {
     std::map<std::string, std::uint64_t> stages;
     for (const std::string& module : rtl.at(job_.top).instances)
       if (is_wanted(module)) ++stages[module];

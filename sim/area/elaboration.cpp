@@ -5,6 +5,8 @@
 #include <sstream>
 #include <string_view>
 
+#include "model/base/hash.h"
+
 namespace ctu::area {
 namespace {
 
@@ -33,6 +35,24 @@ void add_parameter(ElaboratedModule& module, std::string_view line) {
   std::int64_t number = 0;
   const auto [end, failure] = std::from_chars(value.data(), value.data() + value.size(), number);
   if (failure == std::errc() && end == value.data() + value.size()) module.parameters[name_of(word(line, 1))] = number;
+}
+
+/// The text with the numbers that end yosys' own names, "$add$x.sv:12$345_Y", counted from 0 in the order of the text.
+std::string renumbered(const std::string& text) {
+  std::map<std::string_view, std::size_t> numbers;
+  std::string result;
+  const std::string_view view = text;
+  for (std::size_t i = 0; i < view.size();) {
+    const std::size_t end = view[i] == '$' ? view.find_first_not_of("0123456789", i + 1) : i + 1;
+    if (view[i] != '$' || end == i + 1 || end == view.npos || std::string_view(" _[\n").find(view[end]) == view.npos) {
+      result += view[i++];
+      continue;
+    }
+    const auto number = numbers.try_emplace(view.substr(i, end - i), numbers.size()).first;
+    result += '$' + std::to_string(number->second);
+    i = end;
+  }
+  return result;
 }
 
 bool is_module(std::string_view type) { return !type.starts_with('$') || type.starts_with("$paramod"); }
@@ -73,6 +93,18 @@ std::vector<std::string> Elaboration::with_inner(const std::string& module) cons
   std::vector<std::string> list;
   add_inner(module, seen, list);
   return list;
+}
+
+std::map<std::string, std::string> Elaboration::identities(const std::string& module) const {
+  std::map<std::string, std::string> identities;
+  for (const std::string& name : with_inner(module)) {
+    const ElaboratedModule& one = modules_.at(name);
+    Hasher hasher;
+    hasher.add(renumbered(one.text));
+    for (const std::string& inner : one.instances) hasher.add(identities.at(inner));
+    identities[name] = hasher.digest().hex();
+  }
+  return identities;
 }
 
 std::string Elaboration::excerpt(const std::set<std::string>& modules) const {

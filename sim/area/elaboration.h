@@ -24,6 +24,9 @@ class Elaboration {
   const ElaboratedModule& at(const std::string& module) const { return modules_.at(module); }
   /// The module and all that are inside it, each once, those inside before those around them.
   std::vector<std::string> with_inner(const std::string& module) const;
+  /// What a module and all that are inside it are, apart from where yosys was when it numbered its names: the same for
+  /// the same hardware, whatever else the sources hold. By name.
+  std::map<std::string, std::string> identities(const std::string& module) const;
   /// RTLIL of these modules; others that stand in them are black boxes.
   std::string excerpt(const std::set<std::string>& modules) const;
 

@@ -93,14 +93,15 @@ std::string Yosys::run(const std::string& script, const std::string& in, const s
 
 std::string Yosys::elaborate(const std::vector<std::filesystem::path>& sources, const std::string& top,
                              const RtlParameters& parameters) const {
-  // Folders by short names, as yosys takes no spaces in an -I.
+  // Folders by short names, as yosys takes no spaces in an -I; the same names whichever files they hold.
+  const auto folder_of = [](const auto& source) { return std::filesystem::absolute(source).parent_path(); };
   Folders folders;
   std::string files;
-  for (const auto& source : sources) {
-    const auto folder = std::filesystem::absolute(source).parent_path();
-    const auto& name = folders.try_emplace(folder, fmt::format("rtl{}", folders.size())).first->second;
-    if (source.extension() == ".sv") files += fmt::format(" \"{}/{}\"", name, source.filename().string());
-  }
+  for (const auto& source : sources) folders[folder_of(source)];
+  for (int number = 0; auto& [folder, name] : folders) name = fmt::format("rtl{}", number++);
+  for (const auto& source : sources)
+    if (source.extension() == ".sv")
+      files += fmt::format(" \"{}/{}\"", folders.at(folder_of(source)), source.filename().string());
   std::string script = "read_verilog -sv -defer";
   for (const auto& [folder, name] : folders) script += " -I" + name;
   script += files + "\nhierarchy -check -top " + top;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "model/base/error.h"
 #include "sim/area/area_cache.h"
@@ -212,11 +213,18 @@ TEST_F(SmallUnit, WhatWasSynthesisedIsNotSynthesisedAgain) {
   ASSERT_EQ(again.stages.size(), first.stages.size());
   EXPECT_EQ(again.total.gate_equivalents, first.total.gate_equivalents);
   EXPECT_EQ(again.total.depth, first.total.depth);
-  // Another width changes all of them; another source too.
+  // A source that the unit does not have changes nothing, a module that is inside others changes these.
+  write_text(job_.rtl / "another.sv",
+             "module another (input logic a_i, output logic y_o); assign y_o = !a_i; endmodule\n");
+  EXPECT_EQ(area_of(job_).synthesised, 0U);
+  write_text(job_.rtl / "inner" / "store.sv", test::read_text(job_.rtl / "inner" / "store.sv") + "// end\n");
+  EXPECT_EQ(area_of(job_).synthesised, 0U);
+  std::string parity = test::read_text(job_.rtl / "inner" / "parity.sv");
+  write_text(job_.rtl / "inner" / "parity.sv", parity.replace(parity.find("= ^"), 3, "= &"));
+  EXPECT_EQ(area_of(job_).synthesised, 2U);
+  // Another width changes all of them.
   job_.parameters = {{"WIDTH", 5}};
   EXPECT_EQ(area_of(job_).synthesised, 3U);
-  write_text(job_.rtl / "other.sv", "module other; endmodule\n");
-  EXPECT_EQ(area_of(job_).cached, 0U);
 }
 
 TEST_F(SmallUnit, OneStageByItself) {
@@ -280,6 +288,39 @@ TEST(UnitParameters, OfTheConfigurationAndWhatTheRtlHasNot) {
   EXPECT_EQ(value("TABLE_CACHE"), 1);
   config.mask_test.design = cull::Design::Ideal;
   EXPECT_NE(refused().find("software only"), std::string::npos);
+}
+
+/// The program, on a unit with the parameters of the real one and a single stage.
+TEST(AreaCommand, PrintsTablesAndJsonAndRefusesWithCodeTwo) {
+  const ScratchFolder folder;
+  std::string parameters;
+  for (const auto& [name, value] : unit_parameters({}, {}, folder.path() / "none.sv"))
+    parameters += fmt::format("{}parameter int {} = 0", parameters.empty() ? "" : ", ", name);
+  write_text(folder.path() / "ctu_unit.sv",
+             fmt::format("module ctu_unit #({}) (input logic clk_i, input logic [R-1:0] a_i, output logic y_o);\n"
+                         "  any_bit #(.R(R)) stage (.clk_i, .a_i, .y_o);\nendmodule\n"
+                         "module any_bit #(parameter int R = 1) (input logic clk_i, input logic [R-1:0] a_i, "
+                         "output logic y_o);\n  always_ff @(posedge clk_i) y_o <= |a_i;\nendmodule\n",
+                         parameters));
+  const std::string options = "area --rtl . --cache cache --yosys '" CTU_YOSYS_PROGRAM "'";
+  const test::Outcome table = test::run_program(folder.path(), options + " --r 3");
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.out.find("any_bit"), std::string::npos) << table.out;
+  const test::Outcome json = test::run_program(folder.path(), options + " --r 3 --json");
+  EXPECT_EQ(json.exit_code, 0) << json.err;
+  const auto report = nlohmann::json::parse(json.out);
+  EXPECT_EQ(report["parameters"]["R"], 3);
+  EXPECT_EQ(report["stages"][0]["stage"], "any_bit");
+  EXPECT_EQ(report["total"]["gates"], 2);
+  EXPECT_EQ(report["total"]["flip_flops"], 1);
+  EXPECT_EQ(report["modules"]["cached"], 2);
+
+  for (const char* mistake :
+       {" --set table_cache.bytes=65536", " --set mask_test.design=bit-table", " --r 40", " --stages box"}) {
+    const test::Outcome refused = test::run_program(folder.path(), options + mistake);
+    EXPECT_EQ(refused.exit_code, 2) << mistake;
+    EXPECT_NE(refused.err.find("remedy: "), std::string::npos) << mistake << ": " << refused.err;
+  }
 }
 
 }  // namespace
