@@ -6,6 +6,7 @@
 //   latency LATENCY (C++: cell_locate.latency or comparators.latency), counted from the last cycle at the entrance, which a
 //           node with a lanes asked keeps for ceil(a / UNITS) cycles, at least one. stalls: output_full
 //   twin    model/pipeline/cell_locate.h
+//   stated  docs/unit.md
 //   arithmetic  cell_locate_lane or comparator_lane, one for each unit
 //
 // Lanes are located in their order, UNITS a cycle. The context's registers keep their values while its token is inside, so

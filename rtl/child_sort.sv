@@ -2,6 +2,7 @@
 //
 //   latency LATENCY, initiation interval 1
 //   twin    model/pipeline/child_sort.h, ExecSource::child_order (model/pipeline/exec_source.cpp)
+//   stated  docs/unit.md
 //
 // Arithmetic: zeros are equal whatever their signs, and of equal t0 the lower lane comes first. t0 is never a NaN.
 // Three steps: six comparisons, each lane's place by counting who comes before it, the lanes at their places; the

@@ -3,6 +3,7 @@
 //
 //   latency LATENCY from the leaf's last outcome, one outcome a cycle
 //   twin    model/pipeline/hit_update.h, intersect::replaces (model/intersect/ray.h)
+//   stated  docs/unit.md
 //
 // Arithmetic: t < best.t, or t == best.t (zeros equal) and primitive < best.primitive. The best hit is read, compared
 // and written in the cycle in which the outcome is popped, so outcomes of one leaf can follow each other without

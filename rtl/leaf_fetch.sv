@@ -2,6 +2,7 @@
 //
 //   latency and interval as line_fetch
 //   twin    model/pipeline/leaf_fetch.h; addresses as UnitImage::leaf_bytes, triangles as in model/accel/image.h
+//   stated  docs/unit.md
 //
 // A triangle can be read by context and place in its leaf from the cycle in which the leaf leaves, until the next leaf
 // of the context is asked for. Address and lines are found in the cycle in which the token is taken.

@@ -3,6 +3,7 @@
 //
 //   latency hits: ceil(lines / PORTS) + hit_latency; interval ceil(lines / PORTS), and 1 for each line that arrives
 //   twin    LineFetch (model/pipeline/line_fetch.h)
+//   stated  docs/unit.md
 //
 // Lookup: in a cycle with look_o, lines_i are the next lines of the context slot_o, all of them different; the lowest
 // `count` set bits of looked_up_o say how many were looked up, and last_i which one ends the token. starts_o: it is the

@@ -5,6 +5,7 @@
 //   latency LATENCY, and SECOND_LATENCY more for dedup's tables on chip; a node whose reads do not fit the banks' ports
 //           keeps the entrance for more cycles (table_memory)
 //   twin    model/pipeline/mask_test.h, table_banks.h, ExecSource::mask_test (model/pipeline/exec_source.cpp)
+//   stated  docs/unit.md
 //
 // Lanes not asked and lanes whose key is uncertain survive without a read. The rows stand in the first register of
 // the pipeline, which is the memories' own; they are tested in the cycle in which they stand there, and what is left of

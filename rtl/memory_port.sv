@@ -2,6 +2,7 @@
 //
 //   latency the memory's; 1 request a cycle to memory, 1 answer a cycle from it, ready in cycle t pushed in t
 //   twin    model/pipeline/memory_port.h, without the memory behind it (memory_ideal.h, memory_banked.h)
+//   stated  docs/unit.md
 //
 // Clients are numbered as enum Client: node_fetch, leaf_fetch, traversal_stack, table_fetch; CLIENTS is the last one
 // that is there, plus 1, and one that is left out never asks. The memory says in the same cycle, of the state it has at

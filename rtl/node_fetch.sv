@@ -2,6 +2,7 @@
 //
 //   latency and interval as line_fetch
 //   twin    model/pipeline/node_fetch.h; addresses as UnitImage::node_bytes, layout of a node as model/accel/image.h
+//   stated  docs/unit.md
 //
 // A node is put in order when it leaves: it can be read from the next cycle on, until its context's next one leaves.
 // Nodes from masked_nodes on are bare: all of their masks read as full. Address and lines are found in the cycle in

@@ -6,6 +6,7 @@
 //   out  to_result     rays that visit nothing
 //   latency interval_i - 1 + LATENCY, one ray each interval_i cycles
 //   twin    model/pipeline/ray_queue.h; intersect::prepare_ray, is_valid (model/intersect/ray.h)
+//   stated  docs/unit.md
 //
 // The host holds the next ray with ray_valid_i until ray_take_o. In that cycle its context's registers are written at
 // ray_slot_o: of the ray, what the host gives and the signs and axes of its direction (ray_*_o); of the best hit,

@@ -2,6 +2,7 @@
 //
 //   latency 0 behind its links; from_stack first
 //   twin    model/pipeline/result_queue.h
+//   stated  docs/unit.md
 //
 // In the cycle of return_valid_o the best hit of context return_slot_o is the ray's result: the host reads it there,
 // since the context may belong to the next ray a cycle later.

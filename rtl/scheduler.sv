@@ -3,6 +3,7 @@
 //
 //   latency 1 (a ray that comes in cycle t can be issued in t + 1), one issue a cycle
 //   twin    model/pipeline/scheduler.h
+//   stated  docs/unit.md
 //
 // It takes a ray from the stack and one from ray_queue in every cycle, as there is room for every context. References
 // lie in a file by context. The policy oldest keeps a queue of contexts for each fetch stage and compares the arrival

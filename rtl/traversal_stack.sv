@@ -9,6 +9,7 @@
 //   latency a token taken in cycle t is worked on from t + 1: pushes push_width_i entries a cycle, in the last one the
 //           ray goes on to the scheduler, or pops an entry a cycle; in its last cycle the next token is taken
 //   twin    model/pipeline/traversal_stack.h; the order of t0 and best hit as ExecSource::drops
+//   stated  docs/unit.md
 //
 // On chip a context has a ring of MAX_ENTRIES places, one or several rows of as many banks as a line holds entries:
 // entry p lies at place p mod MAX_ENTRIES, in memory at byte 8 p of the context's region: reference, then t0. A

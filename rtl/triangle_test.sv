@@ -4,6 +4,7 @@
 //   out  tested  one outcome for each triangle; t, u, v are +0 without a hit
 //   latency LATENCY + interval_i - 1, from 1; a triangle each interval_i cycles
 //   twin    model/pipeline/triangle_test.h; arithmetic: triangle_intersect.sv
+//   stated  docs/unit.md
 //
 // Reads of the context: the best t in the cycle in which a triangle takes the entrance, ray and triangle in the last
 // one in which it keeps it; both are the same cycle where interval_i is 1. Ray and triangle stay while the leaf is

@@ -4,6 +4,8 @@
 //   out  tested  the lanes hit; times and boxes stay with the context
 //   latency box_test.latency (4 subtract, 4 multiply, 3 compare: 11), one node a cycle
 //   stalls: output_full
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/box_test.sv.
 #pragma once
 
 #include <bit>

@@ -7,6 +7,8 @@
 //   A node with a lanes asked keeps the entrance for ceil(a / units) cycles, at least one. Latency cell_locate.latency
 //   (bisection on [t0, t1]: adders and comparisons only) or comparators.latency, counted from the last of these cycles.
 //   stalls: output_full
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/cell_locate.sv.
 #pragma once
 
 #include <algorithm>

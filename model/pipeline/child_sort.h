@@ -4,6 +4,8 @@
 //   out  sorted     the same with their order
 //   latency child_sort.latency (five comparators in three rows), one node a cycle
 //   stalls: output_full
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/child_sort.sv.
 #pragma once
 
 #include "model/pipeline/context.h"

@@ -5,6 +5,8 @@
 //   out  done    contexts whose leaf is finished
 //   latency hit_update.latency from the leaf's last outcome, one outcome a cycle
 //   stalls: output_full
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/hit_update.sv.
 #pragma once
 
 #include "model/pipeline/context.h"

@@ -1,4 +1,6 @@
 // leaf_fetch: brings the bytes of all triangles of a leaf through leaf_cache. Ports and timing: line_fetch.h.
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/leaf_fetch.sv.
 #pragma once
 
 #include "model/pipeline/line_fetch.h"

@@ -15,6 +15,8 @@
 //   from what the lines before hold, the token is looked up a second time, from the cycle on in which it could
 //   otherwise leave, before new tokens.
 //   stalls: mshrs_full, memory_port_full, fill_port, output_full, memory
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/line_fetch.sv.
 #pragma once
 
 #include <array>

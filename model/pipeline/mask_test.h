@@ -9,6 +9,8 @@
 //   bank_conflict. Lanes not asked and uncertain lanes make no read. Rows from table_fetch come with the node: one node
 //   a cycle.
 //   stalls: output_full, bank_conflict
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/mask_test.sv.
 #pragma once
 
 #include <bit>

@@ -5,6 +5,8 @@
 //   One request a cycle goes to memory, chosen round-robin among the clients whose request memory can take; one answer
 //   a cycle comes back, in the order in which memory has them ready. An answer ready in cycle t is pushed in t. stalls:
 //   output_full (an answer is ready and its client takes none), memory (requests wait for memory)
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/memory_port.sv.
 #pragma once
 
 #include "model/pipeline/accounting.h"

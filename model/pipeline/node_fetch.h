@@ -1,4 +1,6 @@
 // node_fetch: brings the bytes of a node, [node_address, + stride), through node_cache. Ports and timing: line_fetch.h.
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/node_fetch.sv.
 #pragma once
 
 #include "model/pipeline/line_fetch.h"

@@ -6,6 +6,8 @@
 //   out  to_result     rays that visit nothing
 //   latency ray_setup.latency, one ray each ray_setup.interval cycles (the directed divider is shared by the axes)
 //   stalls: no_context, output_full
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/ray_queue.sv.
 #pragma once
 
 #include <memory>

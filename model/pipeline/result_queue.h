@@ -6,6 +6,8 @@
 //   out  freed       emptied contexts
 //   latency 0 behind its links, from_stack first
 //   stalls: output_full, interval
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/result_queue.sv.
 #pragma once
 
 #include <vector>

@@ -2,6 +2,8 @@
 // when tables are resident. Ports and timing: line_fetch.h. A node's distinct lines are looked up in the order of its
 // lanes; Dedup's are looked up in two rounds, the lines of the ids first; a node without any
 // leaves in the cycle behind the one in which it is taken. Nodes may leave in another order than they came.
+//
+// Stated for both twins in docs/unit.md.
 #pragma once
 
 #include "model/pipeline/line_fetch.h"

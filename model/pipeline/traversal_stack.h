@@ -15,6 +15,8 @@
 //       none is on chip but some are spilled, a batch is read back, and the ray waits aside while others are served.
 //   The next token is taken in the last cycle of the one before. Inputs take turns.
 //   stalls: output_full, spill
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/traversal_stack.sv.
 #pragma once
 
 #include <bit>

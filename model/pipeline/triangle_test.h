@@ -5,6 +5,8 @@
 //   out  tested  one outcome for each triangle
 //   latency triangle_test.latency, a triangle each triangle_test.interval cycles; the next leaf follows without a gap
 //   stalls: output_full, interval (a triangle waits for the interval)
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/triangle_test.sv.
 #pragma once
 
 #include "model/pipeline/context.h"
