@@ -4,8 +4,9 @@
 //   in   from_stack, from_rays   rays with the reference they visit next
 //   out  to_node_fetch, to_leaf_fetch
 //   latency 1 (a ray that comes in cycle t can be issued in t + 1), one issue a cycle
-//   policies: oldest, who has waited longest among those whose fetch stage can take one; round-robin, the next by number
 //   stalls: output_full (rays are ready and the fetch stages of all of them are full)
+//   policies: oldest, who has waited longest among those whose fetch stage can take one; round-robin, the next by
+//   number
 //
 // Stated for both twins in docs/unit.md. Twin in gates: rtl/scheduler.sv.
 #pragma once

@@ -9,8 +9,8 @@ namespace ctu::cosim {
 
 class Baseline {
  public:
-  /// Lines of "config hash,trace,rays,cycles" behind a heading. Throws Error when the file cannot be read or has another
-  /// form.
+  /// Lines of "config hash,trace,rays,cycles" behind a heading. Throws Error when the file cannot be read or has
+  /// another form.
   explicit Baseline(std::string path);
 
   /// What is wrong with a run's cycles; empty: nothing. `key` is "config hash,trace,rays".

@@ -1,5 +1,5 @@
-// A Verilated tests/rtl/stages/lane_bench.sv, clocked: boxes enter one a cycle, and what leaves is compared with the slab
-// test.
+// A Verilated tests/rtl/stages/lane_bench.sv, clocked: boxes enter one a cycle, and what leaves is compared with the
+// slab test.
 #pragma once
 
 #include <verilated.h>
