@@ -32,6 +32,18 @@ function(ctu_verilator_runtime)
   target_link_libraries(ctu_verilated PUBLIC Threads::Threads)
 endfunction()
 
+# For a library whose model counts its coverage: the counters' part of the runtime, and what says that it is there.
+function(ctu_verilator_coverage_runtime library)
+  if(NOT TARGET ctu_verilated_coverage)
+    add_library(ctu_verilated_coverage STATIC EXCLUDE_FROM_ALL ${CTU_VERILATOR_ROOT}/include/verilated_cov.cpp)
+    target_compile_options(ctu_verilated_coverage PRIVATE -w)
+    set_target_properties(ctu_verilated_coverage PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_link_libraries(ctu_verilated_coverage PUBLIC ctu_verilated)
+  endif()
+  target_compile_definitions(${library} PRIVATE VM_COVERAGE=1)
+  target_link_libraries(${library} PRIVATE ctu_verilated_coverage)
+endfunction()
+
 # ctu_verilate(library PREFIX Vname TOP module SOURCES a.sv ... [ARGS -DX -GY=1 ...])
 # One model as a static library; `#include "Vname.h"`. All of its C++ is one translation unit.
 function(ctu_verilate library)

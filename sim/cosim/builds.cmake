@@ -1,12 +1,14 @@
 # The builds of the RTL unit. Those marked ALL are built with everything else, and the test suite's share of the grid runs
 # on them; the others by the target rtl_builds. Depths differ, so that no number is right by chance.
-ctu_rtl_build(projection ALL SLOT_BITS 6)
+# Those marked COVERAGE are built by rtl_coverage_builds once more, for `./dev coverage`.
+ctu_rtl_build(projection ALL SLOT_BITS 6 COVERAGE line)
 ctu_rtl_build(none ALL DESIGN none BOX_LATENCY 5 SORT_LATENCY 1 TRIANGLE_LATENCY 20 HIT_LATENCY 1
   RAY_SETUP_LATENCY 7 NODE_PORTS 2)
 ctu_rtl_build(mask-lut ALL DESIGN mask-lut UNITS 2 BANKS 2 PORTS 2 BOX_LATENCY 1 LOCATE_LATENCY 1 MASK_LATENCY 1
   SORT_LATENCY 2 TRIANGLE_LATENCY 1 HIT_LATENCY 1 RAY_SETUP_LATENCY 1)
 ctu_rtl_build(bit-table ALL DESIGN bit-table ENTRIES 256 BANKS 8 UNITS 3 MASK_LATENCY 3 SORT_LATENCY 4 LEAF_PORTS 2)
-ctu_rtl_build(dedup ALL DESIGN dedup BANKS 2 MASK_SECOND_LATENCY 2 BOX_LATENCY 14 TRIANGLE_LATENCY 50 HIT_LATENCY 4)
+ctu_rtl_build(dedup ALL DESIGN dedup BANKS 2 MASK_SECOND_LATENCY 2 BOX_LATENCY 14 TRIANGLE_LATENCY 50 HIT_LATENCY 4
+  COVERAGE line toggle)
 ctu_rtl_build(comparators ALL DESIGN comparators UNITS 4 LOCATE_LATENCY 12 RAY_SETUP_LATENCY 31)
 
 ctu_rtl_build(mask-lut-256 DESIGN mask-lut ENTRIES 256 BANKS 1)

@@ -2,9 +2,14 @@
 #pragma once
 
 #include <verilated.h>
+#if VM_COVERAGE
+#include <verilated_cov.h>
+#endif
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
+#include <string>
 
 #include "model/numeric/round.h"
 #include "sim/cosim/rtl_unit.h"
@@ -15,7 +20,12 @@ template <class Model>
 class VerilatedUnit final : public RtlUnit {
  public:
   explicit VerilatedUnit(RtlParameters parameters) : parameters_(std::move(parameters)) {}
-  ~VerilatedUnit() override { model_.final(); }
+  ~VerilatedUnit() override {
+    model_.final();
+#if VM_COVERAGE
+    write_coverage();
+#endif
+  }
 
   const RtlParameters& parameters() const override { return parameters_; }
 
@@ -144,6 +154,17 @@ class VerilatedUnit final : public RtlUnit {
     model_.ray_tmax_i = numeric::bits(ray.tmax);
     model_.ray_any_hit_i = ray.kind == intersect::RayKind::AnyHit;
   }
+
+#if VM_COVERAGE
+  /// Into the folder that CTU_COVERAGE names, a file for each unit of the process.
+  void write_coverage() {
+    static int units = 0;
+    const char* const folder = std::getenv("CTU_COVERAGE");
+    if (folder == nullptr) return;
+    const std::string file = std::string(folder) + "/" + parameters_.name + "-" + std::to_string(units++) + ".dat";
+    context_.coveragep()->write(file.c_str());
+  }
+#endif
 
   RtlParameters parameters_;
   VerilatedContext context_;
