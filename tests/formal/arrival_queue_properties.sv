@@ -1,7 +1,7 @@
 // What arrival_queue promises (rtl/arrival_queue.sv) while it is never asked to hold more contexts than there are.
 //
-// A context is marked at any push; it must come out at its own place in the order. As any one can be marked, none is lost
-// or doubled.
+// A context is marked at any push; it must come out at its own place in the order. As any one can be marked, none is
+// lost or doubled.
 module arrival_queue_properties #(
     parameter int SLOT_BITS = 2
 ) (

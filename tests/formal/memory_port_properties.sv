@@ -1,6 +1,7 @@
-// What memory_port promises as an arbiter (rtl/memory_port.sv), for any clients and any memory: one grant at most, to a
-// client that asks and that memory can take, and always one where there is such a client; who keeps asking and can be
-// taken is granted before CLIENTS others are; requests and answers go through unchanged, answers only to their client.
+// What memory_port promises as an arbiter (rtl/memory_port.sv), for any clients and any memory: one grant at most, to
+// a client that asks and that memory can take, and always one where there is such a client; who keeps asking and can
+// be taken is granted before CLIENTS others are; requests and answers go through unchanged, answers only to their
+// client.
 `include "tokens.svh"
 
 module memory_port_properties #(

@@ -1,7 +1,8 @@
 // What miss_registers promises (rtl/miss_registers.sv) to a fetch that keeps its rules, as line_fetch does.
 //
-// For any line and any context, named by line_i and slot_i: registers are taken and given back one by one, a line has one
-// at most, and the context is among the waiters of the one release of its line when it has waited for it, and in no other.
+// For any line and any context, named by line_i and slot_i: registers are taken and given back one by one, a line has
+// one at most, and the context is among the waiters of the one release of its line when it has waited for it, and in
+// no other.
 module miss_registers_properties #(
     parameter int SLOT_BITS = 1,
     parameter int LINE_NUMBER_BITS = 3,
@@ -121,7 +122,8 @@ module miss_registers_properties #(
   // Registers inside, under the names that they have after flattening.
   (* hierconn *) wire [MAX_MSHRS-1:0] \dut.in_use_q ;
   (* hierconn *) wire [LINE_NUMBER_BITS-1:0] \dut.lines_q[0] , \dut.lines_q[1] , \dut.lines_q[2] , \dut.lines_q[3] ;
-  (* hierconn *) wire [(1<<SLOT_BITS)-1:0] \dut.waiters_q[0] , \dut.waiters_q[1] , \dut.waiters_q[2] , \dut.waiters_q[3] ;
+  (* hierconn *) wire [(1<<SLOT_BITS)-1:0] \dut.waiters_q[0] , \dut.waiters_q[1] ;
+  (* hierconn *) wire [(1<<SLOT_BITS)-1:0] \dut.waiters_q[2] , \dut.waiters_q[3] ;
   wire [4*LINE_NUMBER_BITS-1:0] lines = {\dut.lines_q[3] , \dut.lines_q[2] , \dut.lines_q[1] , \dut.lines_q[0] };
   wire [3:0] waiting = {
     \dut.waiters_q[3] [slot_i], \dut.waiters_q[2] [slot_i], \dut.waiters_q[1] [slot_i], \dut.waiters_q[0] [slot_i]

@@ -1,9 +1,9 @@
 // What pipe_control promises (rtl/pipe_control.sv), with a pipe_row beside it as stages have it.
 //
-// due_q is the rule in one vector: bit n is a token that leaves n enabled cycles from now. One that enters and keeps the
-// entrance for k cycles sets bit LATENCY + k - 2 of the next cycle; an enabled cycle moves all down by one; the one at bit
-// 0 leaves when it is taken, and while it is not, all stand. A token's bit lies above all others when it is set, so they
-// leave once each, in order.
+// due_q is the rule in one vector: bit n is a token that leaves n enabled cycles from now. One that enters and keeps
+// the entrance for k cycles sets bit LATENCY + k - 2 of the next cycle; an enabled cycle moves all down by one; the
+// one at bit 0 leaves when it is taken, and while it is not, all stand. A token's bit lies above all others when it is
+// set, so they leave once each, in order.
 module pipe_control_properties #(
     parameter int LATENCY = 3,
     parameter int OCCUPIES_BITS = 2

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# prove.sh MODE DEPTH TOP PARAMETERS FILE.smt2 OPTIONS SOURCES...: one run of yosys-smtbmc on a module with properties.
+# prove.sh MODE DEPTH TOP PARAMETERS FILE.smt2 OPTIONS SOURCES...: one run of yosys-smtbmc on a module
+# with properties.
 #
 #   induction  the properties hold in the first DEPTH cycles, and DEPTH cycles in which they held are followed by one in
 #              which they do: they hold always
@@ -7,20 +8,22 @@
 #   cover      every cover statement is reached within DEPTH cycles, under the assumptions
 #   mutant     an assertion fails within DEPTH cycles; invariants of what is inside are left out, so ports show it
 #
-# PARAMETERS are those of the module, as "NAME=VALUE ..."; OPTIONS those of yosys's read_verilog. YOSYS names the program, if it is not `yosys`; yosys-smtbmc lies beside it.
+# PARAMETERS are those of the module, as "NAME=VALUE ..."; OPTIONS those of yosys's read_verilog. YOSYS names the
+# program, if it is not `yosys`; yosys-smtbmc lies beside it.
 set -euo pipefail
 mode=$1 depth=$2 top=$3 parameters=$4 model=$5 options=$6
 shift 6
 yosys=${YOSYS:-yosys}
-# Unrolled, as z3 takes long to expand nested definitions.
-smtbmc() { "$yosys-smtbmc" -s z3 --unroll --noprogress "$@" "$model"; }
+# Unrolled, as z3 takes long to expand nested definitions; there are no arrays, as memories are made registers.
+smtbmc() { "$yosys-smtbmc" -s z3 --unroll --logic QF_BV --noprogress "$@" "$model"; }
 
 mkdir -p "$(dirname "$model")"
-[ "$mode" = mutant ] || options+=" -DCTU_INVARIANTS"
+case $mode in induction | bounded) options+=" -DCTU_INVARIANTS" ;; esac
 settings=
 for parameter in $parameters; do settings+=" -chparam ${parameter/=/ }"; done
-"$yosys" -q -e 'Warning.*' \
-  -p "read_verilog -sv -formal -mem2reg $options $*; hierarchy -top $top$settings; prep -flatten; async2sync; dffunmap; write_smt2 -wires $model"
+"$yosys" -q -e '.*' \
+  -p "read_verilog -sv -formal -mem2reg $options $*; \
+hierarchy -top $top$settings; prep -flatten; async2sync; dffunmap; write_smt2 -wires $model"
 
 # A proof of nothing is none.
 assertions=$(grep -c '^; yosys-smt2-assert ' "$model" || true)
