@@ -181,7 +181,8 @@ module traversal_stack_properties (
 
   always_comb begin
     if (started_q) begin
-      one_place : assert (!(passes && finishes) && !((passes || finishes || pops || requests) && (away_q || reading_q)));
+      one_place : assert (!(passes && finishes) &&
+                          !((passes || finishes || pops || requests) && (away_q || reading_q)));
       nearest : assert (!(passes && pushing_q) ||
                         (!pops && to_scheduler_data[31:0] == children_i[32*32'(nearest_q)+:32]));
       popped : assert (!(passes && !pushing_q) || (pops && !done_q));
