@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "model/base/error.h"
+#include "model/pipeline/engine.h"
 #include "model/unit/run.h"
 #include "sim/cli.h"
 
@@ -15,6 +16,9 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "ctusim: {}\n", e.what());
     return 2;
   } catch (const ctu::unit::Deadlock& e) {
+    fmt::print(stderr, "ctusim: deadlock\n{}\n", e.what());
+    return 3;
+  } catch (const ctu::pipeline::DeadlockFound& e) {  // of the unit in gates, alone or beside the model
     fmt::print(stderr, "ctusim: deadlock\n{}\n", e.what());
     return 3;
   } catch (const std::bad_alloc&) {

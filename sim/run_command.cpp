@@ -77,6 +77,8 @@ int run_command(const RunArgs& args) {
   if (!args.window.empty()) parse_window(args.window, plan.options);
   if (!args.waves_path.empty() && args.window.empty())
     throw Error("--waves", "no window of cycles", "add --window A:B; a waveform of a whole run is gigabytes");
+  if (!args.waves_path.empty() && (args.engine == "rtl" || args.engine == "reference"))
+    throw Error("--waves", fmt::format("engine {} draws none", args.engine), "give --engine cycle or both");
   const LoadedTrace trace(args.trace);
   plan.range = trace.range(args.first_ray, args.rays);
   if (!args.json_path.empty()) check_writable(args.json_path);

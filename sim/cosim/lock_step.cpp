@@ -74,7 +74,7 @@ class LockStep {
     LockStepResult result;
     while (!model_.done() && !result.difference) {
       cycle(&result);
-      watch_progress();
+      watch_progress(result.handshakes);
     }
     // The waveform goes on for its window, so that what follows from a difference can be seen.
     while (!waves_.empty() && result.difference && model_.cycles() <= options_.waves_last && !model_.done())
@@ -136,15 +136,14 @@ class LockStep {
     rtl.end_cycle(now);
   }
 
-  void watch_progress() {
+  void watch_progress(std::uint64_t handshakes) {
+    if (handshakes != handshakes_) last_moved_ = model_.cycles();
+    handshakes_ = handshakes;
     const std::uint64_t rays = model_.stages().result_queue.rays();
-    if (rays != rays_) {
-      rays_ = rays;
-      last_return_ = model_.cycles();
-      if (options_.progress && rays % 64 == 0) options_.progress(rays);
-    }
-    if (model_.cycles() - last_return_ > watchdog_)
-      throw pipeline::DeadlockFound("no ray has returned for watchdog.cycles");
+    if (rays != rays_ && options_.progress && rays % 64 == 0) options_.progress(rays);
+    rays_ = rays;
+    if (model_.cycles() - last_moved_ > watchdog_)
+      throw pipeline::DeadlockFound("no link has moved for watchdog.cycles");
   }
 
   void compare_link(Cycle now, const LinkTap& link, LockStepResult& result) {
@@ -199,8 +198,8 @@ class LockStep {
   std::vector<LinkTap> taps_;
   RtlRun rtl_;
   std::vector<std::unique_ptr<SideWaves>> waves_;  // model, rtl; or none
-  std::uint64_t rays_ = 0;
-  Cycle last_return_ = 0;
+  std::uint64_t rays_ = 0, handshakes_ = 0;
+  Cycle last_moved_ = 0;
 };
 
 }  // namespace

@@ -27,6 +27,12 @@ constexpr int kNodeToBox = place_of_link("node_to_box"), kBoxToLocate = place_of
 unsigned hits(const LinkState& link) { return link.token[0] >> 16 & 15u; }
 unsigned survivors(const LinkState& link) { return link.token[0] >> 12 & 15u; }
 
+bool anything_pushed(const RtlUnit& unit) {
+  for (int link = 0; link < kLinks; ++link)
+    if (unit.link(link).pushed) return true;
+  return false;
+}
+
 }  // namespace
 
 RtlObserver::RtlObserver(bool has_mask_test, bool has_table_fetch) {
@@ -73,19 +79,19 @@ pipeline::UnitResult run_rtl(RtlUnit& unit, const pipeline::UnitConfig& config, 
   no_stalls.fill(-1);
   RtlRun run(unit, config, work, {}, no_stalls);
   RtlObserver observer(config.mask_test.design != cull::Design::None, unit.parameters().table_cache);
-  Cycle last_return = 0;
+  Cycle last_moved = 0;
   std::uint64_t rays = 0;
   while (!run.done()) {
     run.begin();
     observer.sample(run.unit());
+    if (anything_pushed(run.unit())) last_moved = run.cycles();
     run.end();
     if (run.rays() != rays) {
       rays = run.rays();
-      last_return = run.cycles();
       if (progress && rays % 64 == 0) progress(rays);
-    } else if (run.cycles() - last_return > static_cast<Cycle>(config.watchdog.cycles)) {
-      throw pipeline::DeadlockFound("the RTL unit has returned no ray for watchdog.cycles");
     }
+    if (run.cycles() - last_moved > static_cast<Cycle>(config.watchdog.cycles))
+      throw pipeline::DeadlockFound("no link of the RTL unit has moved for watchdog.cycles");
   }
   return observer.result(run);
 }

@@ -25,7 +25,7 @@ class RtlObserver {
   reference::Counts counts_;
 };
 
-/// Runs the unit to the end. Throws pipeline::DeadlockFound when no ray returns for watchdog.cycles.
+/// Runs the unit to the end. Throws pipeline::DeadlockFound when no link moves for watchdog.cycles.
 pipeline::UnitResult run_rtl(RtlUnit& unit, const pipeline::UnitConfig& config, const pipeline::Work& work,
                              const std::function<void(std::uint64_t rays_done)>& progress);
 
