@@ -28,9 +28,12 @@ class CaseRandom {
   const T& one_of(const T (&list)[kCount]) {
     return list[below(static_cast<int>(kCount))];
   }
-  double sign() { return (bits() & 1) != 0 ? 1 : -1; }
+  double either_sign(double x) { return (bits() & 1) != 0 ? x : -x; }
   /// 2^x for x uniform in [low, high), to within the roundness of powers of two: a significand uniform in [1, 2).
-  double scale(int low, int high) { return std::ldexp(1 + unit(), pick(low, high - 1)); }
+  double scale(int low, int high) {
+    const int exponent = pick(low, high - 1);
+    return std::ldexp(1 + unit(), exponent);
+  }
   /// Uniform on the unit sphere.
   scene::Vector64 direction() { return random_.direction(); }
 

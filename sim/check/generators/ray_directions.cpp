@@ -15,7 +15,7 @@ void for_rays_along_axes(Stage& stage, Body&& body) {
   CaseRandom& random = stage.random();
   for (int i = 0; i < kRays; ++i) {
     const int axis = random.below(3);
-    body(axis, random.sign() * random.pick(0, 6) * kSide);
+    body(axis, random.either_sign(random.pick(0, 6) * kSide));
   }
 }
 
@@ -26,7 +26,7 @@ void axis_parallel(CaseRandom& random, HardCase& out) {
     const Vector64 target = stage.surface_point();
     Vector64 origin = target;
     axis_of(origin, axis) -= distance == 0 ? kSide : distance;
-    stage.ray(origin, target, RangeMix::Any, random.pick(-2, 2));
+    stage.ray({origin, target, RangeMix::Any, random.pick(-2, 2)});
   });
 }
 
@@ -56,7 +56,7 @@ void drifting_rays(Stage& stage, Small&& small) {
 void nearly_axis_parallel(CaseRandom& random, HardCase& out) {
   Stage stage(random, out, Frame::scaled(random.pick(-12, 12)));
   add_blocks(stage, 3, 14);
-  drifting_rays(stage, [&](float main) { return to_finite(main * random.sign() * random.scale(-60, -8)); });
+  drifting_rays(stage, [&](float main) { return to_finite(main * random.either_sign(random.scale(-60, -8))); });
 }
 
 void zero_components(CaseRandom& random, HardCase& out) {
@@ -68,7 +68,7 @@ void zero_components(CaseRandom& random, HardCase& out) {
     const int axis = random.below(3);
     axis_of(origin, axis) = axis_of(target, axis);
     if (random.chance(0.2)) axis_of(origin, (axis + 1) % 3) = axis_of(target, (axis + 1) % 3);
-    stage.ray(origin, target, RangeMix::Any, random.pick(-3, 3));
+    stage.ray({origin, target, RangeMix::Any, random.pick(-3, 3)});
     if (random.chance(0.2)) stage.nudge(1);
   }
 }
@@ -76,10 +76,12 @@ void zero_components(CaseRandom& random, HardCase& out) {
 void subnormal_components(CaseRandom& random, HardCase& out) {
   Stage stage(random, out, Frame::scaled(random.pick(-12, 12)));
   add_blocks(stage, 3, 14);
-  drifting_rays(stage,
-                [&](float) { return std::ldexp(static_cast<float>(random.pick(-255, 255)), random.pick(-149, -134)); });
+  drifting_rays(stage, [&](float) {
+    const int exponent = random.pick(-149, -134);
+    return std::ldexp(static_cast<float>(random.pick(-255, 255)), exponent);
+  });
   // All components subnormal: small integers of the smallest number.
-  for (int i = 0; i < kRays / 4; ++i) stage.ray(outside_point(random), stage.surface_point(), RangeMix::Any, -400);
+  for (int i = 0; i < kRays / 4; ++i) stage.ray({outside_point(random), stage.surface_point(), RangeMix::Any, -400});
 }
 
 void components_1e30_apart(CaseRandom& random, HardCase& out) {
@@ -92,8 +94,8 @@ void components_1e30_apart(CaseRandom& random, HardCase& out) {
     const double along = distance == 0 ? kSide : distance;
     axis_of(origin, axis) -= along;
     Vec3 direction;
-    for (int a = 0; a < 3; ++a) direction[a] = to_finite(random.sign() * random.scale(lift - 101, lift - 99));
-    if (random.chance(0.3)) direction[(axis + 1) % 3] = to_finite(random.sign() * random.scale(-149, lift - 50));
+    for (int a = 0; a < 3; ++a) direction[a] = to_finite(random.either_sign(random.scale(lift - 101, lift - 99)));
+    if (random.chance(0.3)) direction[(axis + 1) % 3] = to_finite(random.either_sign(random.scale(-149, lift - 50)));
     direction[axis] = to_finite(std::ldexp(along, lift - 10));
     stage.ray_along(origin, direction, std::ldexp(1.0, stage.frame().exponent[axis] - lift + 10));
   });
@@ -103,7 +105,7 @@ void direction_lengths(CaseRandom& random, HardCase& out) {
   Stage stage(random, out, Frame::scaled(random.pick(-12, 12)));
   add_blocks(stage, 3, 14);
   for (int i = 0; i < kRays; ++i) {
-    stage.ray(outside_point(random), stage.surface_point(), RangeMix::Any, random.pick(-170, 130));
+    stage.ray({outside_point(random), stage.surface_point(), RangeMix::Any, random.pick(-170, 130)});
     if (random.chance(0.3)) stage.nudge(2);
   }
 }

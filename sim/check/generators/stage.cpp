@@ -37,16 +37,19 @@ Vec3 Frame::point(const Vector64& u) const {
   return p;
 }
 
-void Stage::triangle(const Vector64& a, const Vector64& b, const Vector64& c) {
+void Stage::triangle(const Corners& corners) {
   const auto first = static_cast<std::uint32_t>(out_.mesh.vertices.size());
-  for (const Vector64& corner : {a, b, c}) {
+  for (const Vector64& corner : {corners.a, corners.b, corners.c}) {
     corners_.push_back(corner);
     out_.mesh.vertices.push_back(frame_.point(corner));
   }
   out_.mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-Vector64 Stage::vertex() { return corner(random_.below(triangles()), random_.below(3)); }
+Vector64 Stage::vertex() {
+  const int triangle = random_.below(triangles());
+  return corner(triangle, random_.below(3));
+}
 
 Vector64 Stage::edge_point() {
   const int triangle = random_.below(triangles()), i = random_.below(3);
@@ -75,23 +78,23 @@ Vector64 Stage::surface_point() {
   }
 }
 
-void Stage::ray(const Vector64& origin, const Vector64& target, RangeMix mix, int exponent) {
-  const Vec3 from = frame_.point(origin), to = frame_.point(target);
+void Stage::ray(const Aim& aim) {
+  const Vec3 from = frame_.point(aim.origin), to = frame_.point(aim.target);
   double d[3];
   for (int a = 0; a < 3; ++a) d[a] = static_cast<double>(to[a]) - from[a];
   if (d[0] == 0 && d[1] == 0 && d[2] == 0) d[random_.below(3)] = std::ldexp(1.0, frame_.exponent[0]);
   // Neither all of it beyond the largest number nor all of it below the smallest.
-  exponent = std::clamp(exponent, -149 - largest_exponent(d), 126 - largest_exponent(d));
+  const int exponent = std::clamp(aim.exponent, -149 - largest_exponent(d), 126 - largest_exponent(d));
   Vec3 direction;
   for (int a = 0; a < 3; ++a) direction[a] = to_finite(std::ldexp(d[a], exponent));
-  ray_along(origin, direction, std::ldexp(1.0, -exponent), mix);
+  ray_along(aim.origin, direction, std::ldexp(1.0, -exponent), aim.mix);
 }
 
 void Stage::ray_along(const Vector64& origin, const Vec3& direction, double time, RangeMix mix) {
   intersect::Ray ray;
   ray.origin = frame_.point(origin);
   for (int a = 0; a < 3; ++a)
-    ray.direction[a] = direction[a] == 0 ? static_cast<float>(random_.sign() * 0.0) : direction[a];
+    ray.direction[a] = direction[a] == 0 ? static_cast<float>(random_.either_sign(0.0)) : direction[a];
   if (!(ray.direction.x != 0 || ray.direction.y != 0 || ray.direction.z != 0)) ray.direction.x = 1;
   ray.kind = random_.chance(0.3) ? intersect::RayKind::AnyHit : intersect::RayKind::ClosestHit;
   set_range(ray, time, mix);
@@ -146,12 +149,12 @@ void Stage::nudge(int most) {
 }
 
 Vector64 point_in_block(CaseRandom& random, const Vector64& at, double side) {
-  return at + Vector64(random.below(kSide + 1), random.below(kSide + 1), random.below(kSide + 1)) * (side / kSide);
+  return at + each_axis([&] { return random.below(kSide + 1); }) * (side / kSide);
 }
 
 Vector64 cell_corner(CaseRandom& random, const Vector64& at, double side) {
   const int r = random.pick(2, 8);
-  return at + Vector64(random.pick(0, r), random.pick(0, r), random.pick(0, r)) * (side / r);
+  return at + each_axis([&] { return random.pick(0, r); }) * (side / r);
 }
 
 namespace {
@@ -163,8 +166,8 @@ void add_strut(Stage& stage, const Vector64& at) {
   for (int a = 0; a < 3; ++a) axis_of(random.chance(0.5) ? from : to, a) += kSide;
   const double thickness = std::ldexp(1.0, random.pick(0, 7));
   const Vector64 middle = from + (to - from) * (random.pick(1, 7) * 0.125);
-  const Vector64 across(random.pick(-1, 1), random.pick(-1, 1), random.pick(-1, 1));
-  stage.triangle(from, to, middle + across * thickness);
+  const Vector64 across = each_axis([&] { return random.pick(-1, 1); });
+  stage.triangle({from, to, middle + across * thickness});
 }
 
 }  // namespace
@@ -174,14 +177,14 @@ std::vector<Vector64> add_blocks(Stage& stage, int least, int most) {
   std::vector<Vector64> blocks;
   const int count = random.pick(least, most);
   for (int i = 0; i < count; ++i) {
-    const Vector64 at = Vector64(random.pick(0, 3), random.pick(0, 3), random.pick(0, 3)) * kSide;
+    const Vector64 at = each_axis([&] { return random.pick(0, 3); }) * kSide;
     blocks.push_back(at);
     add_strut(stage, at);
     for (int more = random.below(4); more > 0; --more) {
       if (random.chance(0.3))
         add_strut(stage, at);
       else
-        stage.triangle(cell_corner(random, at), cell_corner(random, at), cell_corner(random, at));
+        stage.triangle({cell_corner(random, at), cell_corner(random, at), cell_corner(random, at)});
     }
   }
   return blocks;

@@ -21,6 +21,16 @@ inline constexpr int kSide = 1680;
 double axis_of(const Vector64& v, int axis);
 double& axis_of(Vector64& v, int axis);
 
+/// x, y, z drawn in this order.
+template <class Draw>
+Vector64 each_axis(Draw&& draw) {
+  Vector64 v;
+  v.x = draw();
+  v.y = draw();
+  v.z = draw();
+  return v;
+}
+
 /// From lattice units to space: x = (u + offset) 2^exponent on each axis.
 struct Frame {
   int exponent[3] = {0, 0, 0};
@@ -39,6 +49,19 @@ enum class RangeMix : std::uint8_t {
   Ends,     ///< begins or ends at the point, or a unit in the last place to either side
 };
 
+/// Arguments are aggregates, because those are made in the order they are written in, whatever the compiler: the order
+/// of random numbers must not depend on it.
+struct Corners {
+  Vector64 a, b, c;
+};
+
+/// From `origin` through `target` (lattice units), the direction times 2^exponent.
+struct Aim {
+  Vector64 origin, target;
+  RangeMix mix = RangeMix::Any;
+  int exponent = 0;
+};
+
 class Stage {
  public:
   Stage(CaseRandom& random, HardCase& out, const Frame& frame = {}) : random_(random), out_(out), frame_(frame) {}
@@ -46,7 +69,7 @@ class Stage {
   CaseRandom& random() { return random_; }
   const Frame& frame() const { return frame_; }
 
-  void triangle(const Vector64& a, const Vector64& b, const Vector64& c);
+  void triangle(const Corners& corners);
   int triangles() const { return static_cast<int>(corners_.size() / 3); }
   /// As drawn, in lattice units.
   const Vector64& corner(int triangle, int i) const { return corners_[static_cast<std::size_t>(3 * triangle + i)]; }
@@ -57,8 +80,8 @@ class Stage {
   Vector64 inner_point();
   Vector64 surface_point();
 
-  /// From `origin` through `target` (lattice units), direction times 2^exponent. Each zero component gets either sign.
-  void ray(const Vector64& origin, const Vector64& target, RangeMix mix = RangeMix::Any, int exponent = 0);
+  /// Each zero component of the direction gets either sign.
+  void ray(const Aim& aim);
 
   /// With a direction given in space as it is. `time`: when it passes what it is aimed at.
   void ray_along(const Vector64& origin, const Vec3& direction, double time, RangeMix mix = RangeMix::Any);
