@@ -80,8 +80,10 @@ void aspects(CaseRandom& random, HardCase& out) {
 
 /// The lattice begins as far from zero as binary32 can still tell its points apart, and its unit is up to 2^76: 1e30.
 void offsets(CaseRandom& random, HardCase& out) {
-  Frame frame = Frame::scaled(random.chance(0.3) ? random.pick(60, 76) : random.pick(-40, 76));
-  for (double& offset : frame.offset) offset = std::floor(random.either_sign(random.scale(14, 23)));
+  constexpr double kLast = 0xffffff;
+  Frame frame = Frame::scaled(random.chance(0.3) ? random.pick(72, 76) : random.pick(-40, 76));
+  for (double& offset : frame.offset)
+    offset = random.either_sign(std::fmin(std::floor(random.scale(14, 24)), kLast - 4 * kSide));
   Stage stage(random, out, frame);
   add_blocks(stage, 3, 14);
   aimed_rays(stage, 1);
