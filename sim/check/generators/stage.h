@@ -117,6 +117,6 @@ std::vector<Vector64> add_blocks(Stage& stage, int least, int most);
 Vector64 outside_point(CaseRandom& random);
 
 /// Rays that a scene is asked: enough to share the cost of its tree.
-inline constexpr int kRays = 192;
+inline constexpr int kRays = 512;
 
 }  // namespace ctu::sim::check
