@@ -93,6 +93,7 @@ struct Parsed {
   UnitArgs config;
   bool config_plain = false;
   BenchArgs bench;
+  CheckArgs check;
   int exit_code = 0;
 };
 
@@ -285,6 +286,32 @@ void add_bench(CLI::App& app, Parsed& parsed) {
   command->callback([&] { parsed.exit_code = bench_command(parsed.bench); });
 }
 
+void add_check(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand(
+      "check", "hard cases by the million, judged by exact arithmetic: no hit may be lost, whatever answers");
+  CheckArgs& args = parsed.check;
+  command->add_option("--engine", args.engine, "what answers: reference, untimed")->capture_default_str();
+  command->add_option("--budget", args.budget, "how long: 1000000 cases, 60s or 5m")->capture_default_str();
+  command->add_option("--seed", args.seed, "seed of every random number; 0: a fresh one, which is printed")
+      ->capture_default_str();
+  command->add_option("--generator", args.generators, "only these: NAME,...; --list prints all")->delimiter(',');
+  command->add_option("--scene", args.scene, "only this scene of each generator, as a failure names it");
+  command->add_option("--design,--designs", args.designs, "mask-test designs, drawn for each scene; none: all");
+  command->add_option("--r", args.resolution, "R: cells per axis of an object mask; 0: drawn from 2..8")
+      ->capture_default_str();
+  command->add_option("--r-ray", args.ray_resolution, "R_ray: cells per axis of the ray's key; 0: drawn from R on")
+      ->capture_default_str();
+  command->add_option("--l", args.levels, "L: levels below from which masks are made, 1..5 or inf; without it drawn");
+  command->add_option("--threads", args.threads, "0: one for each core; counts do not depend on it")
+      ->capture_default_str();
+  command->add_option("--json", args.json_path, "write the result here");
+  command->add_option("--failures", args.failures,
+                      "folder for failing cases: each a trace of one ray, which `run` replays, and its commands");
+  command->add_option("--max-failures", args.kept_failures, "failing cases that are kept")->capture_default_str();
+  command->add_flag("--list", args.list, "print the generators, and do nothing else");
+  command->callback([&] { parsed.exit_code = check_command(args); });
+}
+
 std::string typed_command(int argc, const char* const* argv) {
   std::string text = "ctusim";
   for (int i = 1; i < argc; ++i) text += fmt::format(" {}", argv[i]);
@@ -300,7 +327,7 @@ int run_cli(int argc, const char* const* argv) {
   app.set_version_flag("--version", tool_version());
   app.require_subcommand(1);
   Parsed parsed;
-  parsed.run.command = typed_command(argc, argv);
+  parsed.run.command = parsed.check.command = typed_command(argc, argv);
   add_record(app, parsed);
   add_run(app, parsed);
   add_compare(app, parsed);
@@ -314,6 +341,7 @@ int run_cli(int argc, const char* const* argv) {
   add_trace(app, parsed);
   add_config(app, parsed);
   add_bench(app, parsed);
+  add_check(app, parsed);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -135,6 +135,23 @@ struct BenchArgs {
   int repeats = 3;
 };
 
+struct CheckArgs {
+  std::string engine = "reference";
+  std::vector<std::string> generators;     ///< none: all
+  std::string designs;                     ///< list; empty: all that the engine has
+  int resolution = 0, ray_resolution = 0;  ///< 0: drawn for each scene
+  std::string levels;                      ///< empty: drawn
+  std::string budget = "60s";
+  std::uint64_t seed = 0;              ///< 0: a fresh one
+  std::optional<std::uint64_t> scene;  ///< only this one of each generator
+  int threads = 0;                     ///< 0: all
+  std::string json_path;
+  std::string failures;  ///< folder; empty: failing cases are printed only
+  std::size_t kept_failures = 16;
+  bool list = false;    ///< the generators, and nothing else
+  std::string command;  ///< as it was typed
+};
+
 int record_command(const RecordArgs& args);
 int run_command(const RunArgs& args);
 int compare_command(const CompareArgs& args);
@@ -149,6 +166,7 @@ int trace_info_command(const TraceArgs& args);
 int trace_head_command(const TraceArgs& args);
 int trace_slice_command(const TraceArgs& args);
 int config_show_command(const UnitArgs& args, bool plain);
+int check_command(const CheckArgs& args);
 int bench_command(const BenchArgs& args);
 
 }  // namespace ctu::sim

@@ -67,13 +67,6 @@ void place_camera(const SceneArgs& args, scene::Camera& camera) {
   if (camera.eye == camera.target) throw Error("--eye", "the camera looks at its own place", "move --eye or --target");
 }
 
-int parse_levels(const std::string& levels) {
-  if (levels == "inf") return cull::kUnlimitedLevels;
-  const int number = parse_number<int>(levels, "--l", "give 1 to 5, or inf");
-  if (number < 1 || number > 5) throw Error("--l", fmt::format("{} is out of range", number), "give 1 to 5, or inf");
-  return number;
-}
-
 void parse_compression(const SceneArgs& args, cull::MaskOptions& masks) {
   if (!args.compress) {
     if (args.selection.empty()) return;
@@ -129,6 +122,13 @@ std::vector<cull::Design> parse_designs(const std::string& list) {
     begin = comma + 1;
   }
   return designs;
+}
+
+int parse_levels(const std::string& levels) {
+  if (levels == "inf") return cull::kUnlimitedLevels;
+  const int number = parse_number<int>(levels, "--l", "give 1 to 5, or inf");
+  if (number < 1 || number > 5) throw Error("--l", fmt::format("{} is out of range", number), "give 1 to 5, or inf");
+  return number;
 }
 
 void require_possible(cull::Design design, const cull::MaskOptions& masks) {

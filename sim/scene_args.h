@@ -14,6 +14,9 @@ namespace ctu::sim {
 /// "none,mask-lut" as designs; Error on an unknown one, naming the nearest.
 std::vector<cull::Design> parse_designs(const std::string& list);
 
+/// L: "1" to "5", or "inf" for cull::kUnlimitedLevels; Error on anything else.
+int parse_levels(const std::string& levels);
+
 /// Throws Error when the design cannot have its tables with such masks: asked before any work.
 void require_possible(cull::Design design, const cull::MaskOptions& masks);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <limits>
 
 #include <fmt/format.h>
@@ -45,15 +44,12 @@ VisitOrder sort_survivors(unsigned survivors, const float* t0) {
 template <bool kRecord>
 class Walk {
  public:
-  Walk(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester,
-       const intersect::Ray& ray, StepList* steps)
-      : bvh_(bvh),
-        masks_(masks),
-        tester_(tester),
+  Walk(const NodeTest& test_node, const intersect::Ray& ray, StepList* steps)
+      : test_node_(test_node),
+        bvh_(test_node.bvh()),
         ray_(intersect::prepare_ray(ray)),
         steps_(steps),
-        culling_(tester.design() != cull::Design::None),
-        keyed_(cull::event_class(tester.design()) == cull::Design::MaskLut) {
+        keyed_(cull::reads_tables(test_node.tester().design())) {
     best_.t = ray.tmax;
   }
 
@@ -96,12 +92,7 @@ class Walk {
   void visit_node(accel::ChildRef ref) {
     const accel::Node4& node = bvh_.nodes[ref];
     intersect::SlabTimes times;
-    if (culling_)
-      times = intersect::slab_test(ray_, node.boxes, best_.t);
-    else
-      intersect::slab_test_outer(ray_, node.boxes, best_.t, times);
-    const cull::MaskTestResult outcome =
-        tester_.test(ray_, times, node.boxes, culling_ ? masks_->of(ref) : cull::NodeMasks{});
+    const cull::MaskTestResult outcome = test_node_(ray_, ref, best_.t, times);
     const VisitOrder order = sort_survivors(outcome.pass, times.t0);
     if constexpr (kRecord) {
       unsigned detail = static_cast<unsigned>(outcome.uncertain) << 8;
@@ -128,12 +119,11 @@ class Walk {
     if constexpr (kRecord) record(ref, static_cast<unsigned>(count), became_best);
   }
 
+  const NodeTest& test_node_;
   const accel::Bvh4& bvh_;
-  const cull::ObjectMasks* masks_;
-  const cull::MaskTester& tester_;
   const intersect::PreparedRay ray_;
   StepList* steps_;
-  const bool culling_, keyed_;
+  const bool keyed_;
   intersect::Hit best_;
   std::uint8_t dropped_ = 0;
   int size_ = 0;
@@ -145,8 +135,7 @@ class Walk {
 int stack_bound(const accel::Bvh4& bvh) { return (kLanes - 1) * bvh.depth + 1; }
 
 Traversal::Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester)
-    : bvh_(bvh), masks_(masks), tester_(tester) {
-  assert(masks != nullptr || tester.design() == cull::Design::None);
+    : test_node_(bvh, masks, tester) {
   if (stack_bound(bvh) > kMaxStackEntries)
     throw Error("BVH",
                 fmt::format("depth {} needs a traversal stack of {} entries; the limit is {}", bvh.depth,
@@ -155,8 +144,8 @@ Traversal::Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, con
 }
 
 intersect::Hit Traversal::trace(const intersect::Ray& ray, StepList* steps) const {
-  if (steps == nullptr) return Walk<false>(bvh_, masks_, tester_, ray, nullptr).run();
-  Walk<true> walk(bvh_, masks_, tester_, ray, steps);
+  if (steps == nullptr) return Walk<false>(test_node_, ray, nullptr).run();
+  Walk<true> walk(test_node_, ray, steps);
   const intersect::Hit hit = walk.run();
   steps->tail_dropped.push_back(walk.dropped());
   steps->first_step.push_back(steps->steps.size());

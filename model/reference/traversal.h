@@ -4,6 +4,7 @@
 #include "model/accel/bvh4.h"
 #include "model/cull/mask_test.h"
 #include "model/intersect/ray.h"
+#include "model/reference/node_test.h"
 #include "model/reference/step.h"
 
 namespace ctu::reference {
@@ -18,9 +19,7 @@ class Traversal {
   intersect::Hit trace(const intersect::Ray& ray, StepList* steps = nullptr) const;
 
  private:
-  const accel::Bvh4& bvh_;
-  const cull::ObjectMasks* masks_;
-  const cull::MaskTester& tester_;
+  NodeTest test_node_;
 };
 
 /// Upper bound of stack entries any ray can need in this tree: 3 for each level above the last, and 1.

@@ -1,0 +1,40 @@
+// What a ray meets among all triangles of a scene: asked of each, with no tree in front.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/accel/bvh4.h"
+#include "model/intersect/ray.h"
+#include "tests/oracle/ray_oracle.h"
+
+namespace ctu::sim::check {
+
+/// A triangle that the exact ray meets within [tmin, tmax], or that the binary32 triangle test accepts.
+struct Meeting {
+  std::uint32_t triangle = 0;  ///< place in the tree's list
+  bool exact = false;
+  bool accepted = false;
+  float t = 0;  ///< of the triangle test, where it accepts
+};
+
+class BruteForce {
+ public:
+  explicit BruteForce(const accel::Bvh4& bvh);
+
+  /// All meetings of a valid ray, in the order of the list. The reference is good until the next call.
+  const std::vector<Meeting>& meetings(const intersect::Ray& ray);
+
+  /// Questions to the oracle so far.
+  const oracle::OracleCounts& counts() const { return counts_; }
+
+ private:
+  const accel::Bvh4& bvh_;
+  std::size_t padded_ = 0;             ///< triangles, rounded up to whole vectors
+  std::vector<double> coordinate_[3];  ///< by axis: of first vertices, then second, then third ones
+  std::vector<double> distance_;       ///< of a triangle from the line, as an area; above 0: nothing meets
+  std::vector<Meeting> meetings_;
+  oracle::OracleCounts counts_;
+};
+
+}  // namespace ctu::sim::check

@@ -1,0 +1,30 @@
+#include "sim/check/check_scene.h"
+
+#include "model/accel/build.h"
+
+namespace ctu::sim::check {
+
+CaseRandom scene_random(std::uint64_t seed, SceneNumber number) {
+  constexpr std::uint32_t kBehindGenerators = 0x10000;
+  return CaseRandom(seed, kBehindGenerators + number.generator, number.scene);
+}
+
+CheckScene make_scene(std::uint64_t seed, SceneNumber number, const DrawSetup& draw, CaseRandom& random,
+                      TesterCache& testers) {
+  CheckScene scene;
+  scene.number = number;
+  scene.hard = make_case(seed, number.generator, number.scene);
+  scene.setup = draw(random);
+  accel::BuildOptions build;
+  build.max_leaf_triangles = scene.setup.leaf_triangles;
+  scene.bvh = accel::build(scene.hard.mesh, build);
+  const cull::MaskOptions& masks = scene.setup.masks;
+  if (scene.setup.design != cull::Design::None) scene.masks = traces::make_masks(scene.bvh, masks, 1);
+  if (scene.masks.lut)
+    scene.tester = std::make_shared<const cull::MaskTester>(scene.setup.design, masks, scene.masks.lut);
+  else
+    scene.tester = testers.get(scene.setup.design, masks.resolution, masks.ray_resolution);
+  return scene;
+}
+
+}  // namespace ctu::sim::check

@@ -1,0 +1,42 @@
+// A hard case made ready: its tree, its masks and the test over them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "model/accel/bvh4.h"
+#include "model/reference/node_test.h"
+#include "sim/check/culling_setup.h"
+#include "sim/check/hard_case.h"
+#include "traces/mask_set.h"
+
+namespace ctu::sim::check {
+
+/// Which one: with the seed and the options of the command line it decides everything else.
+struct SceneNumber {
+  std::uint32_t generator = 0;  ///< place in generators()
+  std::uint64_t scene = 0;
+};
+
+struct CheckScene {
+  SceneNumber number;
+  HardCase hard;
+  CullingSetup setup;
+  accel::Bvh4 bvh;
+  traces::MaskSet masks;  ///< empty with Design::None
+  std::shared_ptr<const cull::MaskTester> tester;
+
+  reference::NodeTest node_test() const { return {bvh, &masks.masks, *tester}; }
+};
+
+using DrawSetup = std::function<CullingSetup(CaseRandom& random)>;
+
+/// Random numbers of a scene for all that is not the case itself.
+CaseRandom scene_random(std::uint64_t seed, SceneNumber number);
+
+/// `random`: scene_random of it, from which the setup is drawn.
+CheckScene make_scene(std::uint64_t seed, SceneNumber number, const DrawSetup& draw, CaseRandom& random,
+                      TesterCache& testers);
+
+}  // namespace ctu::sim::check

@@ -1,0 +1,138 @@
+// `ctusim check`: hard cases by the million on any execution, judged by exact arithmetic.
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "model/base/error.h"
+#include "model/base/nearest.h"
+#include "model/base/parallel.h"
+#include "sim/check/failure_files.h"
+#include "sim/check/report.h"
+#include "sim/commands.h"
+#include "sim/progress.h"
+#include "sim/run_record.h"
+#include "sim/scene_args.h"
+
+namespace ctu::sim {
+namespace {
+
+using check::CampaignOptions;
+using check::CampaignResult;
+
+std::uint64_t fresh_seed() {
+  std::random_device device;
+  std::uint64_t seed = 0;
+  while (seed == 0) seed = (static_cast<std::uint64_t>(device()) << 32 | device()) >> 16;  // short enough to type
+  return seed;
+}
+
+std::uint32_t generator_named(const std::string& name) {
+  std::vector<std::string> known;
+  const auto all = check::generators();
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    if (all[i].name == name) return i;
+    known.emplace_back(all[i].name);
+  }
+  throw Error("--generator", fmt::format("unknown generator \"{}\"", name),
+              fmt::format("did you mean \"{}\"? `ctusim check --list` prints all", nearest_name(name, known)));
+}
+
+std::vector<std::uint32_t> chosen_generators(const std::vector<std::string>& names) {
+  std::vector<std::uint32_t> chosen;
+  for (const std::string& name : names) chosen.push_back(generator_named(name));
+  for (std::uint32_t i = 0; names.empty() && i < check::generators().size(); ++i) chosen.push_back(i);
+  return chosen;
+}
+
+check::SetupChoice setup_choice(const CheckArgs& args) {
+  check::SetupChoice choice;
+  choice.designs = args.designs.empty() ? check::all_designs() : parse_designs(args.designs);
+  if (args.resolution != 0) choice.resolution = args.resolution;
+  if (args.ray_resolution != 0) choice.ray_resolution = args.ray_resolution;
+  if (!args.levels.empty()) choice.levels = parse_levels(args.levels);
+  check::validate(choice);
+  return choice;
+}
+
+void list_generators() {
+  for (const check::Generator& generator : check::generators())
+    fmt::print("{:<24}{}\n", generator.name, generator.what);
+}
+
+/// The options that decide a scene, as they were given: with seed, generator and scene they remake it.
+std::string remake_command(const CheckArgs& args, std::uint64_t seed, const check::Failure& failure) {
+  std::string command =
+      fmt::format("ctusim check --seed {} --generator {} --scene {} --engine {}", seed,
+                  check::generators()[failure.number.generator].name, failure.number.scene, args.engine);
+  if (!args.designs.empty()) command += " --design " + args.designs;
+  if (args.resolution != 0) command += fmt::format(" --r {}", args.resolution);
+  if (args.ray_resolution != 0) command += fmt::format(" --r-ray {}", args.ray_resolution);
+  if (!args.levels.empty()) command += " --l " + args.levels;
+  return command;
+}
+
+/// Prints the failures, and keeps them as files where a folder is given.
+void report_failures(const CheckArgs& args, const CampaignOptions& options, const CampaignResult& result) {
+  check::TesterCache testers;
+  for (const check::Failure& failure : result.failures) {
+    const std::string remake = remake_command(args, options.seed, failure);
+    fmt::print("failed: {} ray {} ({}): {}\n  {}\n", check::name_of(failure), failure.ray, failure.setup, failure.what,
+               remake);
+    if (args.failures.empty()) continue;
+    std::filesystem::create_directories(args.failures);
+    const std::string path = fmt::format("{}/{}.ctut", args.failures, check::name_of(failure));
+    check::CaseRandom random = check::scene_random(options.seed, failure.number);
+    const check::CheckScene scene =
+        check::make_scene(options.seed, failure.number, options.draw_setup, random, testers);
+    check::write_one_ray_trace(scene, failure.ray, options.seed, path);
+    const std::string replay = check::replay_command(scene.setup, args.engine, path);
+    std::ofstream text(fmt::format("{}/{}.txt", args.failures, check::name_of(failure)));
+    text << fmt::format("{}\n{}\n{}\n{}\n", failure.what, failure.setup, replay, remake);
+    if (!text.flush()) throw Error(args.failures, "cannot be written to", "choose another folder");
+    fmt::print("  {}\n", replay);
+  }
+}
+
+CampaignOptions campaign_options(const CheckArgs& args) {
+  CampaignOptions options;
+  options.seed = args.seed != 0 ? args.seed : fresh_seed();
+  options.generators = chosen_generators(args.generators);
+  options.only_scene = args.scene;
+  options.budget = check::parse_budget(args.budget);
+  options.threads = args.threads == 0 ? available_threads() : args.threads;
+  options.kept_failures = args.kept_failures;
+  if (args.engine != "reference")
+    throw Error("--engine", fmt::format("unknown value \"{}\"", args.engine), "give reference");
+  options.make_execution = check::make_reference_execution;
+  options.draw_setup = [choice = setup_choice(args)](check::CaseRandom& random) {
+    return check::draw_setup(choice, random);
+  };
+  return options;
+}
+
+}  // namespace
+
+int check_command(const CheckArgs& args) {
+  if (args.list) {
+    list_generators();
+    return 0;
+  }
+  const CampaignOptions options = campaign_options(args);
+  if (!args.json_path.empty()) check_writable(args.json_path);
+  fmt::print("seed {}\n", options.seed);
+  std::fflush(stdout);
+  CampaignResult result;
+  {
+    Progress bar("checking", options.budget.cases, "cases");
+    result = check::run_campaign(options, [&](std::uint64_t cases, double) { bar.update(cases); });
+  }
+  const check::ReportHead head{args.engine, args.command, options.seed, options.threads};
+  check::print_report(head, options, result);
+  if (!args.json_path.empty()) check::write_report(head, options, result, args.json_path);
+  report_failures(args, options, result);
+  return result.total().failed() ? 1 : 0;
+}
+
+}  // namespace ctu::sim
