@@ -12,6 +12,7 @@
 #include "model/base/error.h"
 #include "model/base/hash.h"
 #include "model/base/nearest.h"
+#include "model/base/read_file.h"
 
 namespace ctu::sim {
 namespace {
@@ -78,14 +79,30 @@ void apply_table(UnitConfig& config, const toml::table& table, const std::string
   }
 }
 
+/// Keys of many parts become as many nested tables, which the parser takes apart by recursion. Dots are counted
+/// wherever they stand: what is a comment or a string, only the parser knows.
+void check_depth(const std::string& text, const std::string& path) {
+  constexpr std::ptrdiff_t kMostDots = 32;
+  std::int64_t number = 1;
+  for (auto first = text.begin(); first != text.end(); ++number) {
+    const auto end = std::find(first, text.end(), '\n');
+    if (std::count(first, end, '.') > kMostDots)
+      throw Error(fmt::format("{}:{}", path, number), fmt::format("more than {} dots in one line", kMostDots),
+                  "no key has so many parts, and no comment needs them; `ctusim config show` lists every key");
+    first = end == text.end() ? end : end + 1;
+  }
+}
+
 void apply_file(UnitConfig& config, const std::string& path) {
+  constexpr std::uint64_t kMostBytes = 1u << 20;
+  const std::string text = read_file(path, kMostBytes, "`ctusim config show` prints a complete example");
+  check_depth(text, path);
   try {
-    apply_table(config, toml::parse_file(path), "", path);
+    apply_table(config, toml::parse(text, path), "", path);
   } catch (const toml::parse_error& e) {
     const auto line = e.source().begin.line;
-    throw Error(
-        line > 0 ? fmt::format("{}:{}", path, line) : path, std::string(e.description()),
-        line > 0 ? "mend the TOML; `ctusim config show` prints a complete example" : "check that the file exists");
+    throw Error(line > 0 ? fmt::format("{}:{}", path, line) : path, std::string(e.description()),
+                "mend the TOML; `ctusim config show` prints a complete example");
   }
 }
 

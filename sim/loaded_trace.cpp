@@ -27,6 +27,7 @@ accel::Image LoadedTrace::unit_image(cull::Design design) const {
 }
 
 traces::RayRange LoadedTrace::range(std::uint64_t first, std::uint64_t count) const {
+  if (reader_.rays() == 0) throw Error(reader_.path(), "holds no rays", "record it with more pixels or samples");
   if (first >= reader_.rays())
     throw Error(reader_.path(), fmt::format("there is no ray {}", first),
                 fmt::format("the trace holds rays 0 to {}", reader_.rays() - 1));

@@ -1,6 +1,11 @@
-// Exit codes: 0 done, 1 a check failed, 2 bad usage, configuration or input, 3 deadlock or limit.
+// Exit codes: 0 done, 1 a check failed, 2 bad usage, configuration or input, or nothing left of what a system gives
+// (memory, disk), 3 deadlock or limit.
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
+#include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -9,20 +14,40 @@
 #include "model/unit/run.h"
 #include "sim/cli.h"
 
+namespace {
+
+constexpr int kBadInput = 2, kDeadlock = 3;
+
+template <class... Args>
+int refuse(int exit_code, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::print(stderr, format, std::forward<Args>(args)...);
+  return exit_code;
+}
+
+/// What was printed may still lie in a buffer, and the disk behind it be full.
+int flushed(int exit_code) {
+  if (std::fflush(stdout) == 0) return exit_code;
+  return refuse(kBadInput, "ctusim: standard output cannot be written: {}\n  remedy: check the space on the disk\n",
+                std::strerror(errno));
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   try {
-    return ctu::sim::run_cli(argc, argv);
+    return flushed(ctu::sim::run_cli(argc, argv));
   } catch (const ctu::Error& e) {
-    fmt::print(stderr, "ctusim: {}\n", e.what());
-    return 2;
+    return refuse(kBadInput, "ctusim: {}\n", e.what());
   } catch (const ctu::unit::Deadlock& e) {
-    fmt::print(stderr, "ctusim: deadlock\n{}\n", e.what());
-    return 3;
+    return refuse(kDeadlock, "ctusim: deadlock\n{}\n", e.what());
   } catch (const ctu::pipeline::DeadlockFound& e) {  // of the unit in gates, alone or beside the model
-    fmt::print(stderr, "ctusim: deadlock\n{}\n", e.what());
-    return 3;
+    return refuse(kDeadlock, "ctusim: deadlock\n{}\n", e.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "ctusim: out of memory\n  remedy: take a smaller scene, R_ray or number of threads\n");
-    return 3;
+    return refuse(kBadInput,
+                  "ctusim: out of memory\n  remedy: take a smaller scene, picture, R_ray or number of threads\n");
+  } catch (const std::length_error&) {  // more than any memory holds
+    return refuse(kBadInput, "ctusim: out of memory\n  remedy: take a smaller scene, picture or R_ray\n");
+  } catch (const std::system_error& e) {  // of the file system, threads or standard output
+    return refuse(kBadInput, "ctusim: {}\n  remedy: check names, permissions and the space on the disk\n", e.what());
   }
 }

@@ -118,7 +118,7 @@ void write_json(const RunRecord& record, const std::string& path) {
   json["config"] = config_json(record.config);
 
   std::ofstream out(path);
-  out << json.dump(2) << '\n';
+  out << json.dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n';
   if (!out.flush()) throw Error(path, "the result could not be written", "check the folder and the free space");
 }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "model/base/error.h"
+#include "model/base/read_file.h"
 #include "sim/scene_args.h"
 
 namespace ctu::sim {
@@ -23,8 +23,8 @@ struct View {
 constexpr View kViews[] = {{"sponza", "-10,2,0", "10,4,0.5", 60}};
 
 std::vector<ListedScene> read_index(const std::string& index) {
-  std::ifstream in(index);
-  if (!in) throw Error(index, "cannot be read", "unpack the scenes with ./dev scenes, or name another --index");
+  constexpr std::uint64_t kMostBytes = 1u << 20;
+  std::istringstream in(read_file(index, kMostBytes, "an index has a line NAME PATH for each scene"));
   const std::filesystem::path folder = std::filesystem::path(index).parent_path();
   std::vector<ListedScene> listed;
   std::string line;

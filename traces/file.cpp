@@ -120,8 +120,9 @@ FileLayout read_layout(const InputFile& file) {
   return layout;
 }
 
+// Without waiting, as the opening of a pipe would.
 InputFile::InputFile(const std::string& path) : path_(path) {
-  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0)
     throw Error(path, fmt::format("cannot be opened: {}", std::strerror(errno)), "check the path and its permissions");
   struct stat status;
@@ -145,7 +146,11 @@ void InputFile::read_at(std::uint64_t offset, void* to, std::size_t bytes, const
   }
 }
 
+// A device or a pipe would be replaced by the file that is renamed to it.
 OutputFile::OutputFile(const std::string& path) : path_(path), part_path_(path + ".part") {
+  struct stat status;
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+    throw Error(path, "is a folder, a pipe or a device", "name a file");
   descriptor_ = ::open(part_path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (descriptor_ < 0)
     throw Error(path, fmt::format("cannot be written: {}", std::strerror(errno)),

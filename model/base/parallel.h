@@ -41,7 +41,12 @@ void parallel_chunks(std::size_t count, std::size_t chunk, int threads, Body&& b
   };
   std::vector<std::thread> pool;
   const std::size_t workers = chunks < static_cast<std::size_t>(threads) ? chunks : static_cast<std::size_t>(threads);
-  for (std::size_t i = 1; i < workers; ++i) pool.emplace_back(worker);
+  pool.reserve(workers);
+  try {
+    for (std::size_t i = 1; i < workers; ++i) pool.emplace_back(worker);
+  } catch (const std::exception&) {
+    // No more threads are to be had: those there are do the work.
+  }
   worker();
   for (auto& t : pool) t.join();
   if (failure) std::rethrow_exception(failure);

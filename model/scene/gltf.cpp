@@ -7,11 +7,15 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "model/base/error.h"
+#include "model/base/read_file.h"
 #include "model/scene/affine.h"
+#include "model/scene/gltf_check.h"
 #include "model/scene/readers.h"
 
 namespace ctu::scene {
@@ -20,6 +24,30 @@ namespace {
 constexpr const char* kDamaged = "the file is damaged or was exported wrongly: export it again";
 constexpr int kDeepestNode = 1000;
 
+/// Files that a glTF names are read as ours are; together no more than a scene file may hold.
+struct NamedFiles {
+  static constexpr std::uint64_t kMostBytes = std::uint64_t{8} << 30;
+  std::uint64_t bytes_left = kMostBytes;
+
+  static bool exists(const std::string& path, void*) {
+    std::error_code unreadable;
+    return std::filesystem::exists(path, unreadable);
+  }
+  static std::string unchanged(const std::string& path, void*) { return path; }
+  static bool read(std::vector<unsigned char>* to, std::string* problem, const std::string& path, void* self) {
+    std::uint64_t& left = static_cast<NamedFiles*>(self)->bytes_left;
+    try {
+      const std::string content = read_file(path, left, "split the scene");
+      left -= content.size();
+      to->assign(content.begin(), content.end());
+      return true;
+    } catch (const Error& refusal) {
+      *problem += refusal.where() + ": " + refusal.problem();
+      return false;
+    }
+  }
+};
+
 bool ignore_image(tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
   return true;
 }
@@ -27,16 +55,24 @@ bool ignore_image(tinygltf::Image*, const int, std::string*, std::string*, int, 
 tinygltf::Model parse(const SourceFile& file, bool binary) {
   if (file.bytes.size() > std::numeric_limits<unsigned int>::max())
     throw Error(file.path, "is larger than 4 GiB", "keep the geometry in a .bin file");
+  binary ? check_glb(file) : check_gltf(file);
+  NamedFiles files;
   tinygltf::TinyGLTF reader;
   reader.SetImageLoader(ignore_image, nullptr);
+  reader.SetFsCallbacks({NamedFiles::exists, NamedFiles::unchanged, NamedFiles::read, nullptr, &files});
   tinygltf::Model model;
   std::string problem, warning;
   const auto bytes = static_cast<unsigned int>(file.bytes.size());
   const std::string folder = file.folder.empty() ? "." : file.folder.string();
-  const bool good =
-      binary ? reader.LoadBinaryFromMemory(&model, &problem, &warning,
-                                           reinterpret_cast<const unsigned char*>(file.bytes.data()), bytes, folder)
-             : reader.LoadASCIIFromString(&model, &problem, &warning, file.bytes.data(), bytes, folder);
+  bool good = false;
+  try {
+    good = binary
+               ? reader.LoadBinaryFromMemory(&model, &problem, &warning,
+                                             reinterpret_cast<const unsigned char*>(file.bytes.data()), bytes, folder)
+               : reader.LoadASCIIFromString(&model, &problem, &warning, file.bytes.data(), bytes, folder);
+  } catch (const std::logic_error& refusal) {  // std::out_of_range and the like, for sizes of zero
+    problem += refusal.what();
+  }
   while (!problem.empty() && problem.back() == '\n') problem.pop_back();
   if (!good) throw Error(file.path, problem.empty() ? "is no glTF file" : "is no glTF file: " + problem, kDamaged);
   return model;

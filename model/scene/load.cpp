@@ -86,9 +86,19 @@ std::vector<std::string> parts_of(const std::string& name) {
   return parts;
 }
 
+/// The time that a match takes grows as the name's length to the number of stars.
+void check_patterns(const std::vector<std::string>& patterns, const std::string& where) {
+  constexpr std::ptrdiff_t kMostStars = 3;
+  for (const std::string& pattern : patterns)
+    if (std::count(pattern.begin(), pattern.end(), '*') > kMostStars)
+      throw Error(where, fmt::format("the pattern '{}' has more than {} stars", pattern, kMostStars),
+                  "give several patterns instead");
+}
+
 }  // namespace
 
 Scene load(const std::string& name, const LoadOptions& options) {
+  check_patterns(options.without, name);
   Draft draft;
   draft.options = options;
   if (name.starts_with(kGeneratorPrefix)) {

@@ -16,6 +16,9 @@
 namespace ctu::scene {
 namespace {
 
+// The library cuts a face of n corners in up to n^3 steps.
+constexpr int kMostCorners = 1024;
+
 class ObjCheck {
  public:
   explicit ObjCheck(const SourceFile& file) : file_(file) {}
@@ -33,8 +36,10 @@ class ObjCheck {
     if (largest_ > vertices_) fail_index(largest_line_, std::to_string(largest_), vertices_);
   }
 
-  /// Comments behind a face, which the library takes for indices.
-  bool has_late_comments() const { return has_late_comments_; }
+  /// Lines that the library would take for something else, or for more than they are.
+  bool needs_blanks() const { return needs_blanks_; }
+  /// Triangles that the faces make.
+  std::uint64_t triangles() const { return triangles_; }
 
  private:
   static std::string_view next_word(std::string_view& line) {
@@ -52,6 +57,8 @@ class ObjCheck {
       check_vertex(line);
     else if (key == "f")
       check_face(line);
+    else if (key == "t")
+      needs_blanks_ = true;
     if (!line.empty() && line.back() == '\\' && (key == "v" || key == "f" || key == "l" || key == "p"))
       fail("continues on the next line ('\\')", "write the statement on one line: exporters have an option for it");
   }
@@ -71,7 +78,7 @@ class ObjCheck {
     int corners = 0;
     for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
       if (word.front() == '#') {
-        has_late_comments_ = true;
+        needs_blanks_ = true;  // the library takes the comment for indices
         break;
       }
       if (word == "\\") return;
@@ -87,8 +94,12 @@ class ObjCheck {
       }
       ++corners;
     }
+    if (corners > kMostCorners)
+      fail(fmt::format("a face with {} corners; {} are possible", corners, kMostCorners),
+           "cut it into triangles before exporting");
     if (corners < 3)
       fail(fmt::format("a face with {} corners", corners), "a face needs three; a cut-off file must be fetched again");
+    triangles_ += static_cast<std::uint64_t>(corners) - 2;
   }
 
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const {
@@ -101,16 +112,22 @@ class ObjCheck {
   }
 
   const SourceFile& file_;
-  bool has_late_comments_ = false;
+  bool needs_blanks_ = false;
+  std::uint64_t triangles_ = 0;
   std::uint64_t line_ = 0, largest_line_ = 0;
   std::int64_t vertices_ = 0, largest_ = 0;
 };
 
-std::string without_comments(std::string text) {
-  for (std::size_t at = text.find('#'); at != std::string::npos; at = text.find('#', at)) {
-    const std::size_t end = std::min(text.find_first_of("\n\r", at), text.size());
-    std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
-    at = end;
+/// Blanks comments, and tags of subdivision surfaces ("t"): for twenty characters of one the library keeps up to 300
+/// kB, which nobody reads.
+std::string blanked(std::string text) {
+  for (std::size_t line = 0; line < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\n\r", line), text.size());
+    const std::size_t word = std::min(text.find_first_not_of(" \t", line), end);
+    const bool tag = word + 1 < end && text[word] == 't' && (text[word + 1] == ' ' || text[word + 1] == '\t');
+    const std::size_t from = tag ? line : std::min(text.find('#', line), end);
+    std::fill(text.begin() + static_cast<std::ptrdiff_t>(from), text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+    line = end + 1;
   }
   return text;
 }
@@ -142,7 +159,7 @@ void read_obj(const SourceFile& file, Draft& draft) {
   config.triangulate = true;
   config.vertex_color = false;
   tinyobj::ObjReader reader;
-  if (!reader.ParseFromString(check.has_late_comments() ? without_comments(file.bytes) : file.bytes, "", config))
+  if (!reader.ParseFromString(check.needs_blanks() ? blanked(file.bytes) : file.bytes, "", config))
     throw Error(file.path, fmt::format("is no OBJ file: {}", reader.Error()), "export it again");
 
   const auto& coordinates = reader.GetAttrib().vertices;
@@ -150,7 +167,10 @@ void read_obj(const SourceFile& file, Draft& draft) {
   draft.require_room(file.path, vertices, 0);
   for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3)
     draft.mesh.vertices.push_back({coordinates[i], coordinates[i + 1], coordinates[i + 2]});
+  const std::uint64_t triangles = draft.mesh.triangles.size();
   for (const tinyobj::shape_t& shape : reader.GetShapes()) append_shape(shape, base, vertices, file.path, draft);
+  if (draft.mesh.triangles.size() - triangles < check.triangles())
+    draft.warn("obj: a polygon that is flat or crosses itself gave fewer triangles than its corners ask for");
   for (const tinyobj::shape_t& shape : reader.GetShapes())
     if (!shape.lines.indices.empty() || !shape.points.indices.empty())
       draft.warn("obj: lines and points are not triangles and were skipped");

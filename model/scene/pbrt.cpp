@@ -64,7 +64,8 @@ class PbrtReader {
   }
 
   void run(const SourceFile& file) {
-    const auto here = std::filesystem::weakly_canonical(file.path);
+    std::error_code unreadable;
+    const auto here = std::filesystem::weakly_canonical(file.path, unreadable);
     if (std::find(open_files_.begin(), open_files_.end(), here) != open_files_.end())
       throw Error(file.path, "includes itself, directly or through others",
                   "remove the Include that closes the circle");

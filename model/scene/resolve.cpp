@@ -10,7 +10,10 @@ namespace ctu::scene {
 namespace {
 
 bool is_listed_missing(const std::filesystem::path& folder, const std::string& name) {
-  std::ifstream list(folder / "MISSING.txt");
+  const std::filesystem::path path = folder / "MISSING.txt";
+  std::error_code unreadable;
+  if (!std::filesystem::is_regular_file(path, unreadable)) return false;
+  std::ifstream list(path);
   for (std::string line; std::getline(list, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line == name) return true;

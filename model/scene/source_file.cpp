@@ -6,29 +6,21 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <fstream>
 #include <memory>
 
 #include "model/base/error.h"
+#include "model/base/read_file.h"
 
 namespace ctu::scene {
 namespace {
 
 constexpr std::uint64_t kLargestFileBytes = std::uint64_t{8} << 30;
 
-std::string read_bytes(const std::filesystem::path& path) {
-  std::error_code failed;
-  if (std::filesystem::is_directory(path, failed))
-    throw Error(path.string(), "is a folder", "name the scene file in it");
-  std::ifstream in(path, std::ios::binary | std::ios::ate);
-  if (!in) throw Error(path.string(), "cannot be opened", "check the name, and that you may read it");
-  const auto bytes = static_cast<std::uint64_t>(in.tellg());
-  if (bytes > kLargestFileBytes) throw Error(path.string(), "is larger than 8 GiB", "split the scene");
-  std::string content(bytes, '\0');
-  in.seekg(0);
-  if (!in.read(content.data(), static_cast<std::streamsize>(bytes)))
-    throw Error(path.string(), "could not be read to its end", "check the disk");
-  return content;
+// What a scene is packed by is 3 to 30; a frame of one repeated byte can reach thirty thousand.
+constexpr std::uint64_t kMostGrowth = 1000, kAlwaysExpandedBytes = std::uint64_t{16} << 20;
+
+std::uint64_t most_expanded_bytes(std::uint64_t packed_bytes) {
+  return std::min(kLargestFileBytes, std::max(kAlwaysExpandedBytes, packed_bytes * kMostGrowth));
 }
 
 // Expands piece by piece: the size that a frame header claims is never trusted.
@@ -36,6 +28,7 @@ std::string expand(const std::string& packed, const std::string& path) {
   const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
   std::string content;
   std::string piece(ZSTD_DStreamOutSize(), '\0');
+  const std::uint64_t most_bytes = most_expanded_bytes(packed.size());
   ZSTD_inBuffer in{packed.data(), packed.size(), 0};
   std::size_t wanted = packed.empty() ? 1 : 0;
   while (in.pos < in.size || wanted != 0) {
@@ -46,7 +39,9 @@ std::string expand(const std::string& packed, const std::string& path) {
       throw Error(fmt::format("{}: byte {}", path, before),
                   fmt::format("is damaged as zstd: {}", ZSTD_getErrorName(wanted)), "fetch or compress the file again");
     content.append(piece.data(), out.pos);
-    if (content.size() > kLargestFileBytes) throw Error(path, "expands to more than 8 GiB", "split the scene");
+    if (content.size() > most_bytes)
+      throw Error(path, fmt::format("{} expand to more than {} bytes", bytes_text(packed.size()), most_bytes),
+                  "no scene is packed so well: expand it by hand to see what it holds, or split the scene");
     if (wanted != 0 && in.pos == in.size && out.pos < out.size)
       throw Error(fmt::format("{}: byte {}", path, in.pos), "ends inside a zstd frame",
                   "the file is cut off: fetch or compress it again");
@@ -65,7 +60,7 @@ bool is_compressed(const std::filesystem::path& path) { return lower(path.extens
 }  // namespace
 
 SourceFile read_source(const std::filesystem::path& path) {
-  SourceFile file{path.string(), path.parent_path(), read_bytes(path)};
+  SourceFile file{path.string(), path.parent_path(), read_file(path, kLargestFileBytes, "split the scene")};
   if (is_compressed(path)) file.bytes = expand(file.bytes, file.path);
   return file;
 }

@@ -12,8 +12,9 @@ struct SourceFile {
   std::string bytes;             ///< uncompressed
 };
 
-/// Reads the whole file; `folder` becomes the file's own. Throws Error if it cannot be read, is a folder, is damaged
-/// as zstd, or expands to more than 8 GiB.
+/// Reads the whole file; `folder` becomes the file's own. Throws Error if it cannot be read, is no regular file, is
+/// damaged as zstd, is larger than 8 GiB, or expands beyond that or (above 16 MiB) to more than a thousand times its
+/// own size.
 SourceFile read_source(const std::filesystem::path& path);
 
 /// The lower-case extension that decides the format, without ".zst": "ply" for "Bunny.PLY.zst".

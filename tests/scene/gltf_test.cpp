@@ -161,5 +161,44 @@ TEST_F(GltfTest, a_file_without_meshes_is_an_error) {
                "no triangles");
 }
 
+TEST_F(OneTriangle, values_nested_without_end_are_refused_before_the_library_recurses_into_them) {
+  Document document;
+  const auto nested = [](int depth) {
+    return ",\"extras\":" + std::string(static_cast<std::size_t>(depth), '[') +
+           std::string(static_cast<std::size_t>(depth), ']');
+  };
+  document.extra = nested(99);
+  EXPECT_EQ(load(file(document)).mesh.triangles.size(), 1u);
+  document.extra = nested(100);
+  expect_error(file(document), "t.gltf", "nested more than 100 deep");
+  document.extra = nested(1'000'000);
+  expect_error(file(document), "t.gltf", "nested more than 100 deep");
+}
+
+TEST_F(OneTriangle, a_chunk_that_claims_what_lies_behind_its_file_is_refused) {
+  Document document;
+  document.buffer = R"({"byteLength":42})";
+  std::string bytes = glb(document.json(), triangle_bytes());
+  const std::size_t chunk = bytes.size() - 44 - 8;  // the library itself forgets these eight bytes of the header
+  bytes[chunk] = static_cast<char>(bytes[chunk] + 8);
+  expect_error(write("t.glb", bytes), "t.glb: byte", "bytes of the binary chunk need more than");
+}
+
+TEST_F(OneTriangle, a_buffer_without_bytes_or_that_is_no_file_is_refused) {
+  Document document;
+  document.buffer = R"({"byteLength":0})";
+  expect_error(write("t.glb", glb(document.json(), triangle_bytes())), "t.glb", "is no glTF file");
+  document.buffer = R"({"byteLength":42,"uri":"."})";
+  expect_error(file(document), "t.gltf", "is a folder");
+}
+
+TEST_F(OneTriangle, buffers_that_each_copy_the_one_chunk_are_refused) {
+  Document document;
+  document.buffer = R"({"byteLength":1000000})";
+  for (int i = 0; i < 300; ++i) document.buffer += R"(,{"byteLength":1000000})";
+  expect_error(write("t.glb", glb(document.json(), std::string(1'000'000, '\0'))), "t.glb",
+               "301 buffers share a binary chunk");
+}
+
 }  // namespace
 }  // namespace ctu::scene::test

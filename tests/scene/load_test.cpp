@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <cmath>
 
 #include "model/base/error.h"
@@ -146,6 +148,30 @@ TEST_F(LoadTest, the_content_hash_tells_vertices_and_triangles_apart) {
   EXPECT_NE(content_hash(a), content_hash(moved));
   EXPECT_NE(content_hash(a), content_hash(turned));
   EXPECT_NE(content_hash(a), content_hash(negative_zero));
+}
+
+TEST_F(LoadTest, what_expands_far_beyond_any_scene_is_refused) {
+  const std::string packed = compressed(std::string(40'000'000, '\n'));
+  ASSERT_LT(packed.size(), 10'000u);
+  expect_error(write("bomb.obj.zst", packed), "bomb.obj.zst", "expand to more than 16777216 bytes");
+}
+
+TEST_F(LoadTest, a_pipe_is_refused_without_waiting_for_it) {
+  ASSERT_EQ(mkfifo(path("pipe.obj").c_str(), 0600), 0);
+  expect_error(path("pipe.obj"), "pipe.obj", "is a pipe or a device");
+  ASSERT_EQ(mkfifo(path("MISSING.txt").c_str(), 0600), 0);
+  expect_error(write("a.list", "pipe.obj\n"), "a.list:1", "names 'pipe.obj'");
+}
+
+TEST_F(LoadTest, a_pattern_that_could_take_for_ever_is_refused) {
+  LoadOptions options;
+  options.without = {"*a*a*a*a*a*a*a*b"};
+  try {
+    load(write("a.list", std::string(250, 'a') + ".obj\n"), options);
+    ADD_FAILURE() << "was accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(error.problem().find("has more than 3 stars"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "model/base/error.h"
 #include "tests/scene/scene_files.h"
 
@@ -56,6 +58,35 @@ TEST_F(ObjTest, lines_and_points_are_warned_of) {
   const Scene scene = load(write("lines.obj", kVertices + std::string("f 1 2 3\nl 1 2\n")));
   EXPECT_EQ(scene.mesh.triangles.size(), 1u);
   ASSERT_EQ(scene.report.warnings.size(), 1u);
+}
+
+TEST_F(ObjTest, tags_of_subdivision_surfaces_are_not_kept) {
+  // The library would keep 300 kB for each of these lines.
+  std::string tags;
+  for (int i = 0; i < 20000; ++i) tags += " \tt corner 8192/8192/8192\n";
+  const Scene scene = load(write("tags.obj", kVertices + tags + "f 1 2 3\n"));
+  EXPECT_EQ(scene.mesh.triangles.size(), 1u);
+}
+
+TEST_F(ObjTest, a_face_of_very_many_corners_is_refused) {
+  const auto polygon = [&](int corners) {
+    std::string text, face = "f";
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 6.283185307179586 * i / corners;
+      text += "v " + std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
+      face += " " + std::to_string(i + 1);
+    }
+    return write("polygon.obj", text + face + "\n");
+  };
+  EXPECT_EQ(load(polygon(1024)).mesh.triangles.size(), 1022u);
+  expect_error(polygon(1025), "polygon.obj:1026", "a face with 1025 corners; 1024 are possible");
+}
+
+TEST_F(ObjTest, a_polygon_that_is_not_cut_whole_is_warned_of) {
+  const Scene scene = load(write("cross.obj", "v 0 0 0\nv 2 2 0\nv 2 0 0\nv 0 2 0\nv 1 1 0\nf 1 2 3 4 5\nf 1 2 3\n"));
+  if (scene.mesh.triangles.size() < 4) {
+    EXPECT_FALSE(scene.report.warnings.empty());
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model/base/error.h"
+#include "tests/sim/program.h"
 
 namespace {
 
@@ -38,6 +39,24 @@ TEST(ConfigTest, integers_outside_their_range_are_refused_by_name) {
 TEST(ConfigTest, the_hash_tells_configurations_apart) {
   EXPECT_NE(sim::config_hash(sim::load_config("", {"unit.contexts=8"})),
             sim::config_hash(sim::load_config("", {"unit.contexts=16"})));
+}
+
+TEST(ConfigTest, keys_of_very_many_parts_are_refused_before_the_parser_nests_them) {
+  ctu::test::ScratchFolder folder;
+  const auto path = folder.path() / "unit.toml";
+  std::string key = "a";
+  for (int i = 0; i < 200'000; ++i) key += ".a";
+  for (const std::string text :
+       {"[" + key + "]\n", key + " = 1\n", "\"#\"." + key + " = 1\n", "x = {" + key + " = 1}\n"}) {
+    ctu::test::write_text(path, text);
+    try {
+      sim::load_config(path.string(), {});
+      ADD_FAILURE() << "was accepted";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.where(), path.string() + ":1");
+      EXPECT_NE(e.problem().find("more than 32 dots in one line"), std::string::npos) << e.what();
+    }
+  }
 }
 
 }  // namespace

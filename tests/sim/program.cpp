@@ -29,8 +29,9 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-Outcome run_program(const std::filesystem::path& folder, const std::string& arguments) {
-  const std::string command = "cd '" + folder.string() + "' && '" CTU_PROGRAM "' " + arguments + " >out.txt 2>err.txt";
+Outcome run_program(const std::filesystem::path& folder, const std::string& arguments, const std::string& before) {
+  const std::string command = "cd '" + folder.string() + "' && { " + (before.empty() ? "true" : before) +
+                              "; '" CTU_PROGRAM "' " + arguments + " >out.txt 2>err.txt; }";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder / "out.txt"), read_text(folder / "err.txt")};
 }

@@ -11,8 +11,8 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs `ctusim ARGUMENTS` in `folder`.
-Outcome run_program(const std::filesystem::path& folder, const std::string& arguments);
+/// Runs `ctusim ARGUMENTS` in `folder`; `before` is what the shell does first.
+Outcome run_program(const std::filesystem::path& folder, const std::string& arguments, const std::string& before = "");
 
 /// A new empty folder below the system's temporary one, removed at the end.
 class ScratchFolder {

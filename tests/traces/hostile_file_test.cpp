@@ -6,6 +6,8 @@
 #include <functional>
 #include <random>
 
+#include <sys/stat.h>
+
 #include "model/accel/image.h"
 #include "model/base/error.h"
 #include "model/base/hash.h"
@@ -296,6 +298,16 @@ TEST_F(HostileFile, steps_that_pass_the_check_are_a_walk_through_the_image) {
     EXPECT_TRUE(!passed || walk_ends(changed, bvh)) << "change " << i << " of kind " << what;
   }
   EXPECT_GT(refused, 10000);
+}
+
+TEST_F(HostileFile, a_pipe_is_neither_waited_for_nor_replaced) {
+  const std::string pipe = folder_->file("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(refusal(pipe).find("is not a regular file"), std::string::npos);
+  EXPECT_THROW(OutputFile{pipe}, Error);
+  struct stat status;
+  ASSERT_EQ(stat(pipe.c_str(), &status), 0);
+  EXPECT_TRUE(S_ISFIFO(status.st_mode));
 }
 
 }  // namespace
