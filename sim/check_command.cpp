@@ -10,6 +10,7 @@
 #include "model/base/parallel.h"
 #include "sim/check/failure_files.h"
 #include "sim/check/report.h"
+#include "sim/check/unit_execution.h"
 #include "sim/commands.h"
 #include "sim/progress.h"
 #include "sim/run_record.h"
@@ -49,6 +50,11 @@ std::vector<std::uint32_t> chosen_generators(const std::vector<std::string>& nam
 check::SetupChoice setup_choice(const CheckArgs& args) {
   check::SetupChoice choice;
   choice.designs = args.designs.empty() ? check::all_designs() : parse_designs(args.designs);
+  if (args.engine != "reference") {
+    const auto removed = std::erase(choice.designs, cull::Design::Ideal);
+    if (removed != 0 && !args.designs.empty())
+      throw Error("--design", "ideal culling exists in software only", "choose others, or --engine reference");
+  }
   if (args.resolution != 0) choice.resolution = args.resolution;
   if (args.ray_resolution != 0) choice.ray_resolution = args.ray_resolution;
   if (!args.levels.empty()) choice.levels = parse_levels(args.levels);
@@ -95,6 +101,22 @@ void report_failures(const CheckArgs& args, const CampaignOptions& options, cons
   }
 }
 
+/// What answers, and which setups it has.
+void choose_engine(const CheckArgs& args, CampaignOptions& options) {
+  const check::SetupChoice choice = setup_choice(args);
+  options.draw_setup = [choice](check::CaseRandom& random) { return check::draw_setup(choice, random); };
+  if (args.engine == "reference") {
+    options.make_execution = check::make_reference_execution;
+  } else if (args.engine == "cycle") {
+    options.make_execution = check::make_cycle_execution;
+  } else if (args.engine == "rtl") {
+    options.draw_setup = check::draw_rtl_setup(choice);
+    options.make_execution = check::make_rtl_execution;
+  } else {
+    throw Error("--engine", fmt::format("unknown value \"{}\"", args.engine), "give reference, cycle or rtl");
+  }
+}
+
 CampaignOptions campaign_options(const CheckArgs& args) {
   CampaignOptions options;
   options.seed = args.seed != 0 ? args.seed : fresh_seed();
@@ -103,12 +125,7 @@ CampaignOptions campaign_options(const CheckArgs& args) {
   options.budget = check::parse_budget(args.budget);
   options.threads = args.threads == 0 ? available_threads() : args.threads;
   options.kept_failures = args.kept_failures;
-  if (args.engine != "reference")
-    throw Error("--engine", fmt::format("unknown value \"{}\"", args.engine), "give reference");
-  options.make_execution = check::make_reference_execution;
-  options.draw_setup = [choice = setup_choice(args)](check::CaseRandom& random) {
-    return check::draw_setup(choice, random);
-  };
+  choose_engine(args, options);
   return options;
 }
 

@@ -290,7 +290,10 @@ void add_check(CLI::App& app, Parsed& parsed) {
   auto* command = app.add_subcommand(
       "check", "hard cases by the million, judged by exact arithmetic: no hit may be lost, whatever answers");
   CheckArgs& args = parsed.check;
-  command->add_option("--engine", args.engine, "what answers: reference, untimed")->capture_default_str();
+  command
+      ->add_option("--engine", args.engine,
+                   "what answers: reference, untimed; cycle: the timed unit; rtl: the unit in gates")
+      ->capture_default_str();
   command->add_option("--budget", args.budget, "how long: 1000000 cases, 60s or 5m")->capture_default_str();
   command->add_option("--seed", args.seed, "seed of every random number; 0: a fresh one, which is printed")
       ->capture_default_str();

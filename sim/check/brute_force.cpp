@@ -60,9 +60,9 @@ BruteForce::BruteForce(const accel::Bvh4& bvh)
   }
 }
 
-const std::vector<Meeting>& BruteForce::meetings(const intersect::Ray& ray) {
+const std::vector<Meeting>& BruteForce::meetings(const intersect::PreparedRay& prepared) {
   meetings_.clear();
-  const intersect::PreparedRay prepared = intersect::prepare_ray(ray);
+  const intersect::Ray& ray = prepared.ray;
   const Shear shear(prepared);
   const auto rows = [&](int axis, const double*(&row)[3]) {
     for (std::size_t v = 0; v < 3; ++v) row[v] = coordinate_[axis].data() + v * padded_;

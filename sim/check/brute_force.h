@@ -23,7 +23,7 @@ class BruteForce {
   explicit BruteForce(const accel::Bvh4& bvh);
 
   /// All meetings of a valid ray, in the order of the list. The reference is good until the next call.
-  const std::vector<Meeting>& meetings(const intersect::Ray& ray);
+  const std::vector<Meeting>& meetings(const intersect::PreparedRay& prepared);
 
   /// Questions to the oracle so far.
   const oracle::OracleCounts& counts() const { return counts_; }

@@ -41,24 +41,26 @@ bool Judge::is_met_by(const Ray& ray, float t, std::uint32_t triangle) const {
   return oracle::RayOracle(shortened).meets_triangle(at.v0, at.v1, at.v2);
 }
 
-bool Judge::is_some_triangles(const Ray& ray, const Hit& answer, const std::vector<Meeting>& meetings) const {
+bool Judge::is_some_triangles(const intersect::PreparedRay& ray, const Hit& answer,
+                              const std::vector<Meeting>& meetings) const {
   if (answer.primitive == intersect::kNoPrimitive) return true;
   return std::any_of(meetings.begin(), meetings.end(), [&](const Meeting& m) {
     const accel::LeafTriangle& t = scene_.bvh.triangles[m.triangle];
     if (!m.accepted || t.primitive != answer.primitive) return false;
-    const auto result = intersect::triangle_test(intersect::prepare_ray(ray), t.v0, t.v1, t.v2, ray.tmax);
+    const auto result = intersect::triangle_test(ray, t.v0, t.v1, t.v2, ray.ray.tmax);
     return same_bits(answer, {result.t, result.u, result.v, t.primitive});
   });
 }
 
 std::string Judge::judge(const Ray& ray, const Hit& answer, Tally& tally) {
-  const std::vector<Meeting>& meetings = brute_force_.meetings(ray);
+  const intersect::PreparedRay prepared = intersect::prepare_ray(ray);
+  const std::vector<Meeting>& meetings = brute_force_.meetings(prepared);
   ++tally.rays;
   std::string wrong;
   const auto complain = [&](const std::string& what) {
     if (wrong.empty()) wrong = what;
   };
-  if (!meetings.empty()) path_.start(ray);
+  if (!meetings.empty()) path_.start(prepared);
   for (const Meeting& m : meetings) {
     if (!m.exact) {
       ++tally.near_misses;
@@ -86,7 +88,7 @@ std::string Judge::judge(const Ray& ray, const Hit& answer, Tally& tally) {
     }
   }
   tally.ties += nearest_exact(meetings) > 1;
-  if (!is_some_triangles(ray, answer, meetings)) {
+  if (!is_some_triangles(prepared, answer, meetings)) {
     ++tally.invented;
     complain(fmt::format("primitive {} does not answer t = {:a}, u = {:a}, v = {:a}", answer.primitive, answer.t,
                          answer.u, answer.v));
@@ -98,7 +100,7 @@ Hit Judge::true_hit(const Ray& ray) {
   Hit best;
   best.t = ray.tmax;
   const intersect::PreparedRay prepared = intersect::prepare_ray(ray);
-  for (const Meeting& m : brute_force_.meetings(ray)) {
+  for (const Meeting& m : brute_force_.meetings(prepared)) {
     const accel::LeafTriangle& t = scene_.bvh.triangles[m.triangle];
     if (!m.exact || !m.accepted || !intersect::replaces(m.t, t.primitive, best)) continue;
     const auto result = intersect::triangle_test(prepared, t.v0, t.v1, t.v2, ray.tmax);

@@ -35,7 +35,7 @@ class Judge {
  private:
   bool accounts_for(const intersect::Ray& ray, const intersect::Hit& answer, const Meeting& meeting) const;
   bool is_met_by(const intersect::Ray& ray, float t, std::uint32_t triangle) const;
-  bool is_some_triangles(const intersect::Ray& ray, const intersect::Hit& answer,
+  bool is_some_triangles(const intersect::PreparedRay& ray, const intersect::Hit& answer,
                          const std::vector<Meeting>& meetings) const;
 
   const CheckScene& scene_;

@@ -21,8 +21,8 @@ PathCheck::PathCheck(const reference::NodeTest& test_node)
       tested_in_(test_node.bvh().nodes.size(), 0),
       passed_(test_node.bvh().nodes.size(), 0) {}
 
-void PathCheck::start(const intersect::Ray& ray) {
-  ray_ = intersect::prepare_ray(ray);
+void PathCheck::start(const intersect::PreparedRay& ray) {
+  ray_ = ray;
   ++turn_;
 }
 

@@ -33,7 +33,7 @@ class PathCheck {
  public:
   explicit PathCheck(const reference::NodeTest& test_node);
 
-  void start(const intersect::Ray& ray);
+  void start(const intersect::PreparedRay& ray);
   /// Whether every lane on the way to the triangle's leaf is hit and passed. Otherwise `rejected` is the first, from
   /// the leaf up, that is not.
   bool reaches(std::uint32_t triangle, LaneRef& rejected);

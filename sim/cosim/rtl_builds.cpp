@@ -90,15 +90,6 @@ std::string library_folder(const std::string& given) {
   return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rtl").string();
 }
 
-std::vector<std::string> libraries_in(const std::string& folder) {
-  std::vector<std::string> libraries;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
-    if (entry.path().extension() == ".so") libraries.push_back(entry.path().string());
-  std::sort(libraries.begin(), libraries.end());
-  return libraries;
-}
-
 }  // namespace
 
 std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& config, const pipeline::Work& work) {
@@ -121,6 +112,38 @@ std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& confi
   return misfits.text();
 }
 
+pipeline::UnitConfig config_of(const RtlParameters& build) {
+  pipeline::UnitConfig config;
+  config.mask_test.design = build.design;
+  config.mask_test.rows = build.rows;
+  config.mask_test.banks = build.banks;
+  config.mask_test.ports = build.ports;
+  config.mask_test.projection_tables = build.projection_tables;
+  config.mask_test.latency = build.mask_latency;
+  config.mask_test.second_latency = build.mask_second_latency;
+  config.cell_locate.units = config.comparators.units = build.locate_units;
+  config.cell_locate.latency = config.comparators.latency = build.locate_latency;
+  config.node_cache.ports = build.node_ports;
+  config.leaf_cache.ports = build.leaf_ports;
+  config.table_cache.ports = build.table_ports;
+  config.memory.line_bytes = build.line_bytes;
+  config.ray_setup.latency = build.ray_setup_latency;
+  config.box_test.latency = build.box_latency;
+  config.child_sort.latency = build.sort_latency;
+  config.triangle_test.latency = build.triangle_latency;
+  config.hit_update.latency = build.hit_latency;
+  return config;
+}
+
+std::vector<std::string> rtl_libraries(const std::string& folder) {
+  std::vector<std::string> libraries;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(library_folder(folder), none))
+    if (entry.path().extension() == ".so") libraries.push_back(entry.path().string());
+  std::sort(libraries.begin(), libraries.end());
+  return libraries;
+}
+
 std::unique_ptr<RtlUnit> load_rtl_unit(const std::string& library) {
   void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
   using Make = RtlUnit* (*)();
@@ -131,16 +154,16 @@ std::unique_ptr<RtlUnit> load_rtl_unit(const std::string& library) {
 
 std::unique_ptr<RtlUnit> make_rtl_unit(const pipeline::UnitConfig& config, const pipeline::Work& work,
                                        const std::string& folder) {
-  const std::string where = library_folder(folder);
   std::string reasons;
-  for (const std::string& library : libraries_in(where)) {
+  for (const std::string& library : rtl_libraries(folder)) {
     std::unique_ptr<RtlUnit> unit = load_rtl_unit(library);
     const std::string reason = misfit(unit->parameters(), config, work);
     if (reason.empty()) return unit;
     reasons += fmt::format("\n  {}: {}", unit->parameters().name, reason);
   }
   if (reasons.empty())
-    throw Error(where, "no build of the RTL unit is there", "install verilator and build: `./dev rtl`");
+    throw Error(library_folder(folder), "no build of the RTL unit is there",
+                "install verilator and build: `./dev rtl`");
   throw Error("--engine", "no build of the RTL unit has this configuration:" + reasons,
               "change the configuration, or add a build to sim/cosim/CMakeLists.txt");
 }

@@ -115,7 +115,7 @@ TEST(Campaign, brute_force_skips_no_triangle_that_is_met) {
     for (std::size_t i = 0; i < scene.hard.rays.size(); i += 12) {
       const Ray& ray = scene.hard.rays[i];
       std::size_t met = 0;
-      const std::vector<Meeting>& meetings = brute_force.meetings(ray);
+      const std::vector<Meeting>& meetings = brute_force.meetings(intersect::prepare_ray(ray));
       for (std::uint32_t t = 0; t < scene.bvh.triangles.size(); ++t) {
         const accel::LeafTriangle& triangle = scene.bvh.triangles[t];
         const bool is_met =

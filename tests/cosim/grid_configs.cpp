@@ -5,6 +5,7 @@
 
 #include "model/base/error.h"
 #include "model/pipeline/parameter.h"
+#include "sim/cosim/rtl_builds.h"
 
 namespace ctu::cosim {
 namespace {
@@ -75,25 +76,7 @@ const std::vector<GridConfig>& grid_configs() {
 }
 
 pipeline::UnitConfig unit_config(const RtlParameters& build, const std::string& settings) {
-  pipeline::UnitConfig config;
-  config.mask_test.design = build.design;
-  config.mask_test.rows = build.rows;
-  config.mask_test.banks = build.banks;
-  config.mask_test.ports = build.ports;
-  config.mask_test.projection_tables = build.projection_tables;
-  config.mask_test.latency = build.mask_latency;
-  config.mask_test.second_latency = build.mask_second_latency;
-  config.cell_locate.units = config.comparators.units = build.locate_units;
-  config.cell_locate.latency = config.comparators.latency = build.locate_latency;
-  config.node_cache.ports = build.node_ports;
-  config.leaf_cache.ports = build.leaf_ports;
-  config.table_cache.ports = build.table_ports;
-  config.memory.line_bytes = build.line_bytes;
-  config.ray_setup.latency = build.ray_setup_latency;
-  config.box_test.latency = build.box_latency;
-  config.child_sort.latency = build.sort_latency;
-  config.triangle_test.latency = build.triangle_latency;
-  config.hit_update.latency = build.hit_latency;
+  pipeline::UnitConfig config = config_of(build);
   std::istringstream words(settings);
   for (std::string word; words >> word;) {
     const auto equals = word.find('=');

@@ -106,7 +106,7 @@ TEST(RayOracle, triangles_are_met_as_rationals_say) {
   SCOPED_TRACE(seed_note());
   Cases cases(test_seed());
   Tally tally;
-  for (int i = 0; i < 300'000; ++i) {
+  for (int i = 0; i < 150'000; ++i) {
     const TriangleCase c = cases.next(i);
     RayOracle oracle(c.ray);
     const bool met = oracle.meets_triangle(c.v[0], c.v[1], c.v[2]);
@@ -115,15 +115,36 @@ TEST(RayOracle, triangles_are_met_as_rationals_say) {
     tally.met += met;
   }
   EXPECT_GT(tally.met, 5'000);
-  EXPECT_GT(tally.counts.rational, 0u);
   tally.print("triangles");
+}
+
+TEST(RayOracle, rays_in_planes_of_triangles_and_triangles_without_area) {
+  SCOPED_TRACE(seed_note());
+  Cases cases(test_seed() + 4);
+  int met = 0;
+  for (int i = 0; i < 80'000; ++i) {
+    TriangleCase c = cases.next(4 * i + 2);
+    const int flat = i % 3, other = (i + 1) % 3;
+    c.ray.origin[flat] = c.v[0][flat] = c.v[1][flat] = c.v[2][flat] = 2;
+    c.ray.direction[flat] = 0;
+    if (i % 7 == 0) c.v[2] = c.v[i / 7 % 2];
+    if (i % 11 == 0) c.v[0][other] = c.v[1][other] = c.v[2][other] = c.ray.origin[other];
+    if (i % 13 == 0) c.ray.direction[other] = 0;
+    if (!intersect::is_valid(c.ray)) continue;
+    RayOracle oracle(c.ray);
+    const bool is_met = oracle.meets_triangle(c.v[0], c.v[1], c.v[2]);
+    ASSERT_EQ(is_met, exact_ray_triangle(c.ray, c.v[0], c.v[1], c.v[2], c.ray.tmin, c.ray.tmax).hit) << show_range(c);
+    ASSERT_EQ(oracle.counts().rational, 0u);
+    met += is_met;
+  }
+  EXPECT_GT(met, 15'000);
 }
 
 TEST(RayOracle, boxes_are_met_as_rationals_say) {
   SCOPED_TRACE(seed_note());
   Cases cases(test_seed() + 1);
   Tally tally;
-  for (int i = 0; i < 600'000; ++i) {
+  for (int i = 0; i < 300'000; ++i) {
     const TriangleCase c = cases.next(i);
     Vec3 lo = c.v[0], hi = c.v[1];
     for (int axis = 0; axis < 3; ++axis)
@@ -143,7 +164,7 @@ TEST(RayOracle, spheres_are_met_as_rationals_say) {
   SCOPED_TRACE(seed_note());
   Cases cases(test_seed() + 2);
   Tally tally;
-  for (int i = 0; i < 100'000; ++i) {
+  for (int i = 0; i < 50'000; ++i) {
     const TriangleCase c = cases.next(i);
     const float radius = i % 7 == 0 ? 0 : i % 2 == 0 ? c.v[1].x : cases.lattice();
     RayOracle oracle(c.ray);

@@ -5,7 +5,7 @@
 
 #include "tests/oracle/exact_sphere.h"
 #include "tests/oracle/exact_sum.h"
-#include "tests/oracle/exact_triangle.h"
+#include "tests/oracle/in_plane.h"
 
 namespace ctu::oracle {
 
@@ -33,6 +33,40 @@ Estimate triple(const Vector& a, const Vector& b, const Vector& c) {
                                                                    std::fabs(a.z) * (std::fabs(xy) + std::fabs(yx))};
 }
 
+/// Binary64 operations that notice whether any of them rounded: on simple numbers none does, and then even a sum of 0
+/// is certain.
+class Watched {
+ public:
+  bool exact() const { return exact_; }
+  double plus(double a, double b) {
+    const double sum = a + b, from_b = sum - a;
+    exact_ &= (a - (sum - from_b)) + (b - from_b) == 0;
+    return sum;
+  }
+  double minus(double a, double b) { return plus(a, -b); }
+  double times(double a, double b) {
+    const double product = a * b;
+    exact_ &= std::fma(a, b, -product) == 0;
+    return product;
+  }
+  template <class Vector>
+  double triple(const Vector& a, const Vector& b, const Vector& c) {
+    const double x = times(a.x, minus(times(b.y, c.z), times(b.z, c.y)));
+    const double y = times(a.y, minus(times(b.z, c.x), times(b.x, c.z)));
+    const double z = times(a.z, minus(times(b.x, c.y), times(b.y, c.x)));
+    return plus(plus(x, y), z);
+  }
+  template <class Vector>
+  Vector difference(const Vec3& p, const Vec3& q) {
+    return {minus(p.x, q.x), minus(p.y, q.y), minus(p.z, q.z)};
+  }
+
+ private:
+  bool exact_ = true;
+};
+
+int sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+
 /// Adds scale a . (b x c); scale and each number have 24 bits.
 void add_triple(ExactSum& sum, double scale, const Vec3& a, const Vec3& b, const Vec3& c) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -44,7 +78,12 @@ void add_triple(ExactSum& sum, double scale, const Vec3& a, const Vec3& b, const
 }
 
 /// The sign of d . ((p - o) x (q - o)).
-int edge_sign(const intersect::Ray& ray, const Vec3& p, const Vec3& q) {
+template <class Vector>
+int edge_sign(const intersect::Ray& ray, const Vector& direction, const Vec3& p, const Vec3& q) {
+  Watched watched;
+  const Vector to = watched.difference<Vector>(p, ray.origin), edge = watched.difference<Vector>(q, p);
+  const double plain = watched.triple(direction, to, edge);
+  if (watched.exact()) return sign_of(plain);
   ExactSum sum;
   add_triple(sum, 1, ray.direction, p, q);
   add_triple(sum, -1, ray.direction, ray.origin, q);
@@ -53,7 +92,13 @@ int edge_sign(const intersect::Ray& ray, const Vec3& p, const Vec3& q) {
 }
 
 /// The sign of (v0 - o - t d) . n, n the triangle's normal v0 x v1 + v1 x v2 + v2 x v0.
-int height_sign(const intersect::Ray& ray, const Vec3 (&v)[3], float t) {
+template <class Vector>
+int height_sign(const intersect::Ray& ray, const Vector& direction, const Vec3 (&v)[3], float t) {
+  Watched watched;
+  const Vector to = watched.difference<Vector>(v[0], ray.origin), e1 = watched.difference<Vector>(v[1], v[0]),
+               e2 = watched.difference<Vector>(v[2], v[1]);
+  const double plain = watched.minus(watched.triple(to, e1, e2), watched.times(t, watched.triple(direction, e1, e2)));
+  if (watched.exact()) return sign_of(plain);
   ExactSum sum;
   add_triple(sum, 1, v[0], v[1], v[2]);
   for (int i = 0; i < 3; ++i) {
@@ -101,13 +146,13 @@ bool RayOracle::meets_triangle(const Vec3& v0, const Vec3& v1, const Vec3& v2) {
   bool doubt = signs.has(kDoubt);
   if (doubt) {
     for (int i = 0; i < 3; ++i)
-      if (signs.of[i] == kDoubt) signs.of[i] = edge_sign(ray_, v[i], v[(i + 1) % 3]);
+      if (signs.of[i] == kDoubt) signs.of[i] = edge_sign(ray_, direction_, v[i], v[(i + 1) % 3]);
   }
   const int orientation = signs.common();
   bool meets = false;
   if (orientation == 0) {
     doubt = true;
-    meets = box_of_triangle_is_met(v) && by_rationals(v);
+    meets = box_of_triangle_is_met(v) && meets_in_plane(ray_, v);
   } else if (!signs.disagree()) {
     // The point is at t = (v0 - o) . n / (d . n), and the sign of d . n is the edges'.
     const Estimate height = triple(to[0], edge[0], edge[1]), rate = triple(direction_, edge[0], edge[1]);
@@ -116,7 +161,7 @@ bool RayOracle::meets_triangle(const Vec3& v0, const Vec3& v1, const Vec3& v2) {
       const int sign = beyond.sign();
       if (sign != kDoubt) return sign * orientation;
       doubt = true;
-      return height_sign(ray_, v, static_cast<float>(t)) * orientation;
+      return height_sign(ray_, direction_, v, static_cast<float>(t)) * orientation;
     };
     meets = side_of(tmin_) >= 0 && (!bounded_ || side_of(tmax_) <= 0);
   }
@@ -132,11 +177,6 @@ bool RayOracle::box_of_triangle_is_met(const Vec3 (&v)[3]) const {
   }
   const int sign = box_sign(lo, hi);
   return sign == kDoubt ? box_by_sums(lo, hi) : sign > 0;
-}
-
-bool RayOracle::by_rationals(const Vec3 (&v)[3]) {
-  ++counts_.rational;
-  return exact_ray_triangle(ray_, v[0], v[1], v[2], ray_.tmin, ray_.tmax).hit;
 }
 
 int RayOracle::box_sign(const Vec3& lo, const Vec3& hi) const {

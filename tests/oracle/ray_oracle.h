@@ -46,7 +46,6 @@ class RayOracle {
   };
   Vector from_origin(const Vec3& point) const;
   bool box_of_triangle_is_met(const Vec3 (&v)[3]) const;
-  bool by_rationals(const Vec3 (&v)[3]);
   /// -1: missed, +1: met, else binary64 cannot tell.
   int box_sign(const Vec3& lo, const Vec3& hi) const;
   int sphere_sign(const Vec3& centre, float radius) const;

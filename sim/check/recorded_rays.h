@@ -1,0 +1,34 @@
+// A scene's rays with the reference's hits and visits, as a unit is given them, and what the unit made of them.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "model/accel/image.h"
+#include "model/pipeline/result.h"
+#include "model/reference/ray_block.h"
+#include "sim/check/execution.h"
+
+namespace ctu::sim::check {
+
+/// Rays, hits and steps of the scene's own design.
+std::shared_ptr<const reference::RayBlock> record_rays(const CheckScene& scene);
+
+/// The bytes that a unit of the scene's design fetches.
+accel::Image image_of(const CheckScene& scene);
+
+/// One block, once.
+class OneBlockFeed : public reference::RayFeed {
+ public:
+  explicit OneBlockFeed(std::shared_ptr<const reference::RayBlock> block) : block_(std::move(block)) {}
+  std::shared_ptr<const reference::RayBlock> next() override { return std::exchange(block_, nullptr); }
+  std::uint64_t total_rays() const override { return block_ ? block_->rays.size() : 0; }
+
+ private:
+  std::shared_ptr<const reference::RayBlock> block_;
+};
+
+/// The recorded hits but for those that the unit answered otherwise.
+Answers answers_of(const pipeline::UnitResult& result, const reference::RayBlock& recorded);
+
+}  // namespace ctu::sim::check
