@@ -1,11 +1,10 @@
 // Exit codes: 0 done, 1 a check failed, 2 bad usage, configuration or input, or nothing left of what a system gives
 // (memory, disk), 3 deadlock or limit.
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,9 +25,8 @@ int refuse(int exit_code, fmt::format_string<Args...> format, Args&&... args) {
 
 /// What was printed may still lie in a buffer, and the disk behind it be full.
 int flushed(int exit_code) {
-  if (std::fflush(stdout) == 0) return exit_code;
-  return refuse(kBadInput, "ctusim: standard output cannot be written: {}\n  remedy: check the space on the disk\n",
-                std::strerror(errno));
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  return refuse(kBadInput, "ctusim: standard output cannot be written\n  remedy: check the space on the disk\n");
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST_F(ObjTest, a_face_of_very_many_corners_is_refused) {
     for (int i = 0; i < corners; ++i) {
       const double angle = 6.283185307179586 * i / corners;
       text += "v " + std::to_string(std::cos(angle)) + " " + std::to_string(std::sin(angle)) + " 0\n";
-      face += " " + std::to_string(i + 1);
+      face += std::to_string(i + 1).insert(0, 1, ' ');
     }
     return write("polygon.obj", text + face + "\n");
   };
