@@ -85,9 +85,11 @@ cull::MaskOptions masks_of(const AreaArgs& args, cull::Design design) {
 
 int area_command(const AreaArgs& args) {
   const pipeline::UnitConfig config = load_config(args.unit.config_path, args.unit.sets);
+  require_box_bits(args.box_bits);
   area::AreaJob job;
   job.rtl = args.rtl.empty() ? CTU_RTL_FOLDER : args.rtl;
-  job.parameters = area::unit_parameters(config, masks_of(args, config.mask_test.design), job.rtl / (job.top + ".sv"));
+  job.parameters = area::unit_parameters(config, masks_of(args, config.mask_test.design), job.rtl / (job.top + ".sv"),
+                                         args.box_bits);
   job.stages = split(args.stages);
   job.fpga = args.fpga;
   job.cache = args.cache;

@@ -84,6 +84,7 @@ struct Parsed {
   CompareArgs compare;
   CullingArgs culling;
   DecideArgs decide;
+  PrecisionArgs precision;
   CompressionArgs compression;
   HeatmapArgs heatmap;
   TablesArgs tables;
@@ -113,6 +114,10 @@ void add_record(CLI::App& app, Parsed& parsed) {
   add_config_options(*command, parsed.record.unit);
   command->add_flag("--strip-full", parsed.record.strip_full, "nodes whose masks are all full carry none");
   command->add_option("--node-align", parsed.record.node_alignment_bytes, "bytes that a node starts at a multiple of")
+      ->capture_default_str();
+  command
+      ->add_option("--box-bits", parsed.record.box_bits,
+                   "of each coordinate of a node's boxes: 32, or 16, 12 or 8 of boxes rounded outward")
       ->capture_default_str();
   command
       ->add_option("--triangle-align", parsed.record.triangle_alignment_bytes,
@@ -166,6 +171,22 @@ void add_decide(CLI::App& app, Parsed& parsed) {
   command->callback([&] { parsed.exit_code = decide_command(parsed.decide); });
 }
 
+void add_precision(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand(
+      "precision", "what boxes of fewer bits cost in intersections and save in bytes and cycles, the same rays in all");
+  PrecisionArgs& args = parsed.precision;
+  add_scene_options(*command, args.scene, true);
+  add_config_options(*command, args.unit);
+  command->add_option("--designs", args.designs, "list of designs")->capture_default_str();
+  command->add_option("--box-bits", args.box_bits, "list of bits of a coordinate; the first is what others are against")
+      ->capture_default_str();
+  command->add_option("--sample", args.rays, "rays that are simulated for each scene, about; 0: all")
+      ->capture_default_str();
+  command->add_option("--out", args.output, "folder for the plot and its data");
+  command->add_flag("--markdown", args.markdown, "print the rows of a Markdown table");
+  command->callback([&] { parsed.exit_code = precision_command(parsed.precision); });
+}
+
 void add_compression(CLI::App& app, Parsed& parsed) {
   auto* command =
       app.add_subcommand("compression", "what compressed masks cost with each selection of entries, untimed");
@@ -208,6 +229,8 @@ void add_area(CLI::App& app, Parsed& parsed) {
   command->add_option("--r-ray", args.ray_resolution, "R_ray: cells per axis of the ray's key; 0: as --r")
       ->capture_default_str();
   command->add_option("--entries", args.entries, "of the compression LUT; 0: object masks are not compressed")
+      ->capture_default_str();
+  command->add_option("--box-bits", args.box_bits, "of each coordinate of the image's boxes: 32, 16, 12 or 8")
       ->capture_default_str();
   command->add_option("--stages", args.stages, "only these, by name: cell_locate,mask_test; none: all");
   command->add_flag("--fpga", args.fpga, "also LUT4, DSP and block RAM of the Lattice ECP5 family");
@@ -336,6 +359,7 @@ int run_cli(int argc, const char* const* argv) {
   add_compare(app, parsed);
   add_culling(app, parsed);
   add_decide(app, parsed);
+  add_precision(app, parsed);
   add_compression(app, parsed);
   add_heatmap(app, parsed);
   add_tables(app, parsed);

@@ -52,6 +52,7 @@ struct RecordArgs {
   UnitArgs unit;               ///< that auto decides for: its configuration
   bool strip_full = false;     ///< nodes whose masks are all full carry none
   std::uint32_t node_alignment_bytes = 4, triangle_alignment_bytes = 4;
+  std::uint32_t box_bits = 32;  ///< of a coordinate of a node's boxes
 };
 
 struct RunArgs {
@@ -84,6 +85,16 @@ struct DecideArgs {
   bool markdown = false;
 };
 
+struct PrecisionArgs {
+  SceneArgs scene;
+  UnitArgs unit;
+  std::string designs = "none,projection,comparators";
+  std::string box_bits = "32,16,12,8";
+  std::uint64_t rays = 20000;  ///< sampled, about so many; 0: all
+  std::string output;          ///< folder for the plot and its data; empty: none
+  bool markdown = false;
+};
+
 struct CompressionArgs {
   SceneArgs scene;
   bool ideas = false;  ///< rows for ideas that did not become a selection
@@ -108,9 +119,10 @@ struct TablesArgs {
 struct AreaArgs {
   UnitArgs unit;
   int resolution = 4;
-  int ray_resolution = 0;  ///< 0: as resolution
-  int entries = 0;         ///< of the compression LUT; 0: masks are not compressed
-  std::string rtl, cache;  ///< folders; empty: those of the source tree and of the user
+  int ray_resolution = 0;       ///< 0: as resolution
+  int entries = 0;              ///< of the compression LUT; 0: masks are not compressed
+  std::uint32_t box_bits = 32;  ///< of a coordinate of the image's boxes
+  std::string rtl, cache;       ///< folders; empty: those of the source tree and of the user
   std::string yosys = "yosys";
   std::string stages;  ///< list; empty: all
   int threads = 0;     ///< 0: all
@@ -157,6 +169,7 @@ int run_command(const RunArgs& args);
 int compare_command(const CompareArgs& args);
 int culling_command(const CullingArgs& args);
 int decide_command(const DecideArgs& args);
+int precision_command(const PrecisionArgs& args);
 int compression_command(const CompressionArgs& args);
 int heatmap_command(const HeatmapArgs& args);
 int tables_command(const TablesArgs& args);

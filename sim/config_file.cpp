@@ -167,7 +167,9 @@ std::string config_to_toml(const UnitConfig& config, bool documented) {
 
 std::string config_hash(const UnitConfig& config) {
   Hasher hasher;
-  for (const Parameter& p : pipeline::parameters()) hasher.add(p.key + "=" + to_text(p.get(config)) + "\n");
+  for (const Parameter& p : pipeline::parameters())
+    if (!p.new_since_hashes || p.get(config) != p.default_value)
+      hasher.add(p.key + "=" + to_text(p.get(config)) + "\n");
   return hasher.digest().hex();
 }
 

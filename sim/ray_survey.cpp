@@ -8,7 +8,6 @@
 #include "model/base/parallel.h"
 #include "model/reference/traversal.h"
 #include "sim/stopwatch.h"
-#include "tests/oracle/exact_triangle.h"
 #include "traces/ray_generator.h"
 
 namespace ctu::sim {
@@ -18,28 +17,6 @@ using intersect::Hit;
 using intersect::Ray;
 
 constexpr std::size_t kPathsPerChunk = 1024;
-
-/// Judges changed hits: does the exact ray meet the triangle that only the traversal without culling found?
-class Judge {
- public:
-  explicit Judge(const scene::Mesh& mesh) : mesh_(mesh) {}
-
-  Verdict judge(const Ray& ray, const Hit& without, const Hit& with) const {
-    const bool both_hit = without.primitive != intersect::kNoPrimitive && with.primitive != intersect::kNoPrimitive;
-    if (both_hit && without.t == with.t) return Verdict::Tie;
-    return meets(ray, without.primitive) ? Verdict::Lost : Verdict::NearMiss;
-  }
-
- private:
-  bool meets(const Ray& ray, std::uint32_t primitive) const {
-    if (primitive == intersect::kNoPrimitive) return false;
-    const auto& [a, b, c] = mesh_.triangles[primitive];
-    const auto& v = mesh_.vertices;
-    return oracle::exact_ray_triangle(ray, v[a], v[b], v[c], ray.tmin, ray.tmax).hit;
-  }
-
-  const scene::Mesh& mesh_;
-};
 
 void count(Verdict verdict, ContenderSurvey& row) {
   ++(verdict == Verdict::Lost ? row.lost_hits : verdict == Verdict::NearMiss ? row.near_misses : row.ties);
@@ -57,8 +34,8 @@ void add(const ContenderSurvey& part, ContenderSurvey& sum) {
 class ChunkSurvey {
  public:
   ChunkSurvey(const std::vector<Contender>& contenders, const std::vector<reference::Traversal>& traversals,
-              const Judge& judge, int repeats)
-      : contenders_(contenders), traversals_(traversals), judge_(judge) {
+              const scene::Mesh& mesh, int repeats)
+      : contenders_(contenders), traversals_(traversals), mesh_(mesh) {
     result_.contenders.resize(contenders.size());
     for (std::size_t c = 0; c < contenders.size(); ++c)
       if (contenders[c].timed) result_.contenders[c].seconds.resize(static_cast<std::size_t>(repeats));
@@ -76,7 +53,7 @@ class ChunkSurvey {
       for (std::size_t i = 0; i < rays_.size(); ++i) {
         const Hit with = traversals_[c].trace(rays_[i], &steps);
         if (same_bits(with, without_[i])) continue;
-        const Verdict verdict = judge_.judge(rays_[i], without_[i], with);
+        const Verdict verdict = judge_hits(mesh_, rays_[i], without_[i], with);
         count(verdict, row);
         result_.changed.push_back({c, rays_[i], without_[i], with, verdict});
       }
@@ -102,7 +79,7 @@ class ChunkSurvey {
  private:
   const std::vector<Contender>& contenders_;
   const std::vector<reference::Traversal>& traversals_;
-  const Judge& judge_;
+  const scene::Mesh& mesh_;
   std::vector<Ray> rays_;
   std::vector<Hit> without_;
   RaySurvey result_;
@@ -126,13 +103,12 @@ RaySurvey survey_rays(const scene::Scene& scene, const accel::Bvh4& bvh, const s
   std::vector<reference::Traversal> traversals;
   for (const Contender& contender : contenders) traversals.emplace_back(bvh, contender.masks, *contender.tester);
   const traces::RayGenerator generator(scene, options.rays);
-  const Judge judge(scene.mesh);
 
-  RaySurvey survey = ChunkSurvey(contenders, traversals, judge, options.timed_repeats).result();
+  RaySurvey survey = ChunkSurvey(contenders, traversals, scene.mesh, options.timed_repeats).result();
   std::mutex mutex;
   std::uint64_t paths_done = 0;
   parallel_chunks(generator.paths(), kPathsPerChunk, options.threads, [&](std::size_t first, std::size_t last) {
-    ChunkSurvey chunk(contenders, traversals, judge, options.timed_repeats);
+    ChunkSurvey chunk(contenders, traversals, scene.mesh, options.timed_repeats);
     chunk.make_rays(generator, first, last);
     chunk.count_work();
     const std::size_t number = first / kPathsPerChunk;

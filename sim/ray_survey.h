@@ -12,16 +12,10 @@
 #include "model/intersect/ray.h"
 #include "model/reference/step.h"
 #include "model/scene/scene.h"
+#include "sim/hit_judge.h"
 #include "traces/ray_options.h"
 
 namespace ctu::sim {
-
-/// What became of a ray whose hit with culling is not the one without.
-enum class Verdict : std::uint8_t {
-  Lost,      ///< in exact arithmetic the ray meets the triangle found without culling: a defect
-  NearMiss,  ///< it does not: only the rounded triangle test accepts it
-  Tie,       ///< another triangle at the same t, bit for bit: where two meet, rounding decides which one comes first
-};
 
 /// A way to cull. Both must outlive the survey; `masks` may be null when the tester's design is none.
 struct Contender {

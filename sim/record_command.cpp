@@ -98,6 +98,8 @@ traces::RecordOptions recorder_options(const RecordArgs& args) {
   check_alignment("--triangle-align", args.triangle_alignment_bytes);
   options.layout.node_alignment_bytes = args.node_alignment_bytes;
   options.layout.triangle_alignment_bytes = args.triangle_alignment_bytes;
+  require_box_bits(args.box_bits);
+  options.layout.box_bits = args.box_bits;
   options.strand_thickness = static_cast<float>(args.scene.strand_thickness);
   return options;
 }
@@ -175,6 +177,8 @@ int trace_info_command(const TraceArgs& args) {
   row("image", fmt::format("{} nodes of {} bytes, {} triangles of {} bytes, depth {}", m.image.shape.node_count,
                            m.image.shape.node_stride_bytes, m.image.shape.triangle_count,
                            m.image.shape.triangle_stride_bytes, m.image.shape.depth));
+  if (const std::uint32_t bits = m.image.shape.layout.box_bits; bits != accel::kFullBoxBits)
+    row("boxes", fmt::format("{} bits for each coordinate, in the frame of their node", bits));
   if (!m.cut_from.empty()) row("cut from", fmt::format("{}, from ray {}", m.cut_from, m.cut_first));
   print_designs(m.designs);
   print_differences(m.differences);

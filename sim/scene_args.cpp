@@ -141,6 +141,11 @@ void require_possible(cull::Design design, const cull::MaskOptions& masks) {
     cull::DedupTable::require_fits(masks.resolution, masks.ray_resolution, masks.entries);
 }
 
+void require_box_bits(std::uint32_t bits) {
+  if (bits != accel::kFullBoxBits && !accel::is_reduced(bits))
+    throw Error("--box-bits", fmt::format("a coordinate cannot have {} bits", bits), "give 32, 16, 12 or 8");
+}
+
 traces::RecordOptions record_options(const SceneArgs& args) {
   traces::RecordOptions options;
   options.rays.kind = parse_rays(args.rays);

@@ -20,6 +20,9 @@ int parse_levels(const std::string& levels);
 /// Throws Error when the design cannot have its tables with such masks: asked before any work.
 void require_possible(cull::Design design, const cull::MaskOptions& masks);
 
+/// Throws Error unless a coordinate of boxes can have so many bits.
+void require_box_bits(std::uint32_t bits);
+
 /// Everything of SceneArgs but the scenes' names; Error on a word or number that is not allowed.
 traces::RecordOptions record_options(const SceneArgs& args);
 

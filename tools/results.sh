@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper variants compression tables designs area; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper variants compression precision tables designs area; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants compression tables designs area)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants compression precision tables designs area)
 
 page=docs/results.md
 plots=docs/plots
@@ -256,6 +256,31 @@ compression() {
   put compression
 }
 
+# One row: area of the stages that boxes of so many bits change. Columns of `area --markdown` as below.
+precision_area() {  # BITS
+  keep row "$program" area --box-bits "$1" --stages box_test,node_fetch,context_file --markdown
+  awk -F' *[|] *' -v bits="$1" '
+    { ge[$2] = $6; ff[$2] = $5; mem[$2] = $7; depth[$2] = $8 }
+    END { printf "| %d | %d | %d | %d | %d | %d | %d | %d | %d |\n", bits, ge["box_test"], ff["box_test"], depth["box_test"],
+                 ge["node_fetch"], mem["node_fetch"], mem["context_file"], ge["all"], mem["all"] }' "$scratch/row"
+}
+
+precision() {
+  local scenes=(gen:hair-ball gen:foliage) name bits
+  for name in bunny straight-hair sponza kitchen; do if listed "$name"; then scenes+=("$name"); fi; done
+  keep precision "$program" precision --index "$index" --markdown --size 160x90 --rays diffuse --out "$scratch/precision" \
+    "${scenes[@]}"
+  put precision
+  mkdir -p "$plots"
+  cp "$scratch/precision/precision.svg" "$plots"
+  {
+    echo "| bits | box_test: gate equivalents | flip-flops | depth | node_fetch: gate equivalents | memory bits | context files: memory bits | the three: gate equivalents | memory bits |"
+    echo "| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    for bits in 32 16 12 8; do precision_area "$bits"; done
+  } >"$scratch/precision-area"
+  put precision-area
+}
+
 # Rows of one trace: cycles and area of each design. Columns of `area --markdown`: stage, instances, gates, flip-flops, gate
 # equivalents, memory bits, depth.
 area_rows() {  # MASKS DESIGNS ENTRIES
@@ -289,8 +314,8 @@ area() {
 
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | variants | designs | tables | compression | area) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, variants, designs, tables, compression or area" >&2; exit 2 ;;
+    culling | auto | paper | variants | designs | tables | compression | precision | area) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, variants, designs, tables, compression, precision or area" >&2; exit 2 ;;
   esac
 done
 exit "$failed"

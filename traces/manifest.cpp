@@ -95,6 +95,7 @@ Json to_json_value(const ImageInfo& info) {
     json["bare_nodes"] = image.layout.bare_nodes;
     json["bare_node_stride_bytes"] = image.bare_node_stride_bytes;
   }
+  if (image.layout.box_bits != accel::kFullBoxBits) json["box_bits"] = image.layout.box_bits;
   return json;
 }
 
@@ -350,6 +351,7 @@ void read(const Reader& from, ImageInfo& to) {
     from.get("bare_nodes", image.layout.bare_nodes);
     from.get("bare_node_stride_bytes", image.bare_node_stride_bytes);
   }
+  if (from.has("box_bits")) from.get("box_bits", image.layout.box_bits);
 }
 
 void read(const Reader& from, DesignCounts& to) {

@@ -204,6 +204,8 @@ RecordedTree build_tree(const scene::Scene& scene, const RecordOptions& options)
   RecordedTree tree;
   auto start = std::chrono::steady_clock::now();
   tree.bvh = accel::build(scene.mesh, options.build);
+  if (options.layout.box_bits != accel::kFullBoxBits)
+    accel::quantize_boxes(tree.bvh, options.layout.box_bits, options.threads);
   tree.build_seconds = seconds_since(start);
   if (!options.with_masks) return tree;
   start = std::chrono::steady_clock::now();

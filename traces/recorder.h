@@ -23,7 +23,7 @@ struct RecordOptions {
   cull::MaskOptions masks;
   bool with_masks = true;     ///< false: nodes carry none, and the only design is None
   bool strip_full = false;    ///< nodes whose masks are all full carry none
-  accel::ImageLayout layout;  ///< alignments; mask_bits follow from `masks`
+  accel::ImageLayout layout;  ///< alignments and bits of a coordinate; mask_bits follow from `masks`
   /// Whose steps are stored. Projection, Dedup and BitTable store MaskLut's, which are their own.
   std::vector<cull::Design> designs = {cull::Design::None, cull::Design::MaskLut, cull::Design::Comparators};
   std::vector<cull::Design> count_only;  ///< counted for the manifest, not stored
@@ -41,7 +41,8 @@ struct RecordedTree {
   double build_seconds = 0, mask_seconds = 0, compression_seconds = 0;
 };
 
-/// The tree of a scene with all masks, or none, as the options say. Throws Error on options out of range.
+/// The tree of a scene with all masks, or none, as the options say; its boxes are those of layout.box_bits. Throws
+/// Error on options out of range.
 RecordedTree build_tree(const scene::Scene& scene, const RecordOptions& options);
 
 /// Lays nodes whose masks are all full out without masks: once the masks are chosen, because it reorders the nodes.

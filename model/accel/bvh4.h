@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/accel/box_frame.h"
 #include "model/accel/child_ref.h"
 #include "model/intersect/slab_test.h"
 #include "model/numeric/vec3.h"
@@ -14,7 +15,9 @@ namespace ctu::accel {
 struct alignas(64) Node4 {
   intersect::Box4 boxes;
   ChildRef child[intersect::kLanes];
+  BoxFrame frame;  ///< that the boxes are stored in, where they are of reduced precision (quantize.h)
 };
+static_assert(sizeof(Node4) == 128);
 
 /// A triangle in leaf order, with the id it has in the scene.
 struct LeafTriangle {

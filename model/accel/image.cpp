@@ -8,26 +8,16 @@
 #include <limits>
 #include <string>
 
+#include "model/accel/image_bytes.h"
 #include "model/base/error.h"
 
 namespace ctu::accel {
 namespace {
 
 constexpr std::uint32_t kChildOffset = 96;
-constexpr std::uint32_t kMaskOffset = 112;
 constexpr std::uint32_t kPrimitiveOffset = 36;
 constexpr std::uint32_t kMaxAlignmentBytes = 4096;
 constexpr std::uint32_t kMaxMaskBits = 1u << 15;  // R = 32
-
-void store_u32(std::uint8_t* p, std::uint32_t x) {
-  for (int i = 0; i < 4; ++i) p[i] = static_cast<std::uint8_t>(x >> (8 * i));
-}
-std::uint32_t load_u32(const std::uint8_t* p) {
-  return p[0] | static_cast<std::uint32_t>(p[1]) << 8 | static_cast<std::uint32_t>(p[2]) << 16 |
-         static_cast<std::uint32_t>(p[3]) << 24;
-}
-void store_float(std::uint8_t* p, float x) { store_u32(p, std::bit_cast<std::uint32_t>(x)); }
-float load_float(const std::uint8_t* p) { return std::bit_cast<float>(load_u32(p)); }
 
 void store_vec3(std::uint8_t* p, const Vec3& v) {
   for (int axis = 0; axis < 3; ++axis) store_float(p + 4 * axis, v[axis]);
@@ -56,11 +46,12 @@ bool is_alignment(std::uint32_t bytes) {
 Image frame(const ImageLayout& layout, std::uint32_t nodes, std::uint32_t triangles) {
   Image image;
   image.layout = layout;
-  image.node_stride_bytes =
-      static_cast<std::uint32_t>(round_up(kNodeBytes + 4 * mask_bytes(layout), layout.node_alignment_bytes));
+  image.node_stride_bytes = static_cast<std::uint32_t>(
+      round_up(node_body_bytes(layout) + 4 * mask_bytes(layout), layout.node_alignment_bytes));
   image.triangle_stride_bytes = static_cast<std::uint32_t>(round_up(kTriangleBytes, layout.triangle_alignment_bytes));
   if (layout.bare_nodes != 0)
-    image.bare_node_stride_bytes = static_cast<std::uint32_t>(round_up(kNodeBytes, layout.node_alignment_bytes));
+    image.bare_node_stride_bytes =
+        static_cast<std::uint32_t>(round_up(node_body_bytes(layout), layout.node_alignment_bytes));
   image.node_count = nodes;
   image.triangle_count = triangles;
   image.triangle_base =
@@ -68,7 +59,8 @@ Image frame(const ImageLayout& layout, std::uint32_t nodes, std::uint32_t triang
   return image;
 }
 
-void write_node(const Node4& node, std::uint8_t* p) {
+void write_node(const Node4& node, std::uint32_t box_bits, std::uint8_t* p) {
+  if (box_bits != kFullBoxBits) return write_compact_node(node, box_bits, p);
   for (int axis = 0; axis < 3; ++axis) {
     for (int lane = 0; lane < intersect::kLanes; ++lane) {
       store_float(p + 16 * axis + 4 * lane, node.boxes.lo[axis][lane]);
@@ -148,7 +140,14 @@ class Validator {
     return true;
   }
 
+  void check_frame_of(std::uint32_t n) const {
+    if (image_.layout.box_bits == kFullBoxBits) return;
+    const std::string problem = compact_node_problem(node_bytes(image_, n), image_.layout.box_bits);
+    if (!problem.empty()) fail(fmt::format("image, node {}", n), problem);
+  }
+
   void check_node(std::uint32_t n, std::vector<std::uint32_t>& open) {
+    check_frame_of(n);
     const Node4 node = read_node(image_, n);
     bool empty_before = false;
     for (int lane = 0; lane < intersect::kLanes; ++lane) {
@@ -228,6 +227,8 @@ void validate(const ImageLayout& layout) {
   if (layout.mask_bits > kMaxMaskBits)
     throw Error(where, fmt::format("mask_bits is {}", layout.mask_bits),
                 fmt::format("choose at most {}", kMaxMaskBits));
+  if (layout.box_bits != kFullBoxBits && !is_reduced(layout.box_bits))
+    throw Error(where, fmt::format("box_bits is {}", layout.box_bits), "choose 32, 16, 12 or 8");
   if (layout.bare_nodes != 0 && layout.mask_bits == 0)
     throw Error(where, "bare nodes where no node carries masks", "choose 0 bare nodes");
 }
@@ -248,10 +249,10 @@ Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask
   image.bytes.resize(image.triangle_address(image.triangle_count));
   for (std::uint32_t n = 0; n < image.node_count; ++n) {
     std::uint8_t* const node = image.bytes.data() + image.node_address(n);
-    write_node(bvh.nodes[n], node);
+    write_node(bvh.nodes[n], layout.box_bits, node);
     for (std::size_t lane = 0; lane < intersect::kLanes && layout.mask_bits != 0 && n < image.masked_nodes(); ++lane)
       write_mask(masks + (4 * std::size_t{n} + lane) * static_cast<std::size_t>(words_per_mask), layout.mask_bits,
-                 node + kMaskOffset + lane * mask_bytes(layout));
+                 node + node_body_bytes(layout) + lane * mask_bytes(layout));
   }
   for (std::uint32_t t = 0; t < image.triangle_count; ++t)
     write_triangle(bvh.triangles[t], image.bytes.data() + image.triangle_address(t));
@@ -260,6 +261,7 @@ Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask
 
 Node4 read_node(const Image& image, std::uint32_t index) {
   const std::uint8_t* const p = node_bytes(image, index);
+  if (image.layout.box_bits != kFullBoxBits) return read_compact_node(p, image.layout.box_bits);
   Node4 node;
   for (int axis = 0; axis < 3; ++axis) {
     for (int lane = 0; lane < intersect::kLanes; ++lane) {
@@ -281,7 +283,8 @@ LeafTriangle read_triangle(const Image& image, std::uint32_t index) {
 void read_mask(const Image& image, std::uint32_t node, int lane, std::uint64_t* words) {
   if (node >= image.masked_nodes()) fail(fmt::format("image, node {}", node), "carries no masks");
   const std::uint32_t bytes = mask_bytes(image.layout);
-  const std::uint8_t* const p = node_bytes(image, node) + kMaskOffset + static_cast<std::uint32_t>(lane) * bytes;
+  const std::uint8_t* const p =
+      node_bytes(image, node) + node_body_bytes(image.layout) + static_cast<std::uint32_t>(lane) * bytes;
   std::fill_n(words, (bytes + 7) / 8, std::uint64_t{0});
   for (std::uint32_t i = 0; i < bytes; ++i) words[i / 8] |= static_cast<std::uint64_t>(p[i]) << (8 * (i % 8));
 }

@@ -7,13 +7,20 @@
 // Its stride is that size rounded up to a multiple of 4 and of the alignment: 112 bytes without masks, 116 with 8-bit
 // indices into a compression table, 144 with 64-bit masks (R = 4), 220 with 216-bit masks (R = 6).
 //
+// With box_bits 16, 12 or 8 the first 112 bytes are the 80, 68 or 56 of compact_node.h; masks follow in the same way:
+//   box_bits                        32    16    12     8
+//   without masks                  112    80    68    56 bytes
+//   with 8-bit indices             116    84    72    60
+//   with 64-bit masks (R = 4)      144   112   100    88
+//   with 216-bit masks (R = 6)     220   188   176   164
+//
 // A triangle, in leaf order:
 //   byte   0  v0.xyz   12  v1.xyz   24  v2.xyz   binary32
 //   byte  36  primitive                          u32, its id in the scene
 // Its stride is 40 bytes, rounded up to the alignment. Nodes start at byte 0, triangles at the next multiple of 64.
 // Bytes that nothing above names are 0.
 //
-// The last `bare_nodes` nodes carry no masks, because every mask in them is full; their stride is that of 112 bytes.
+// The last `bare_nodes` nodes carry no masks, because every mask in them is full; their stride is that without masks.
 // They lie behind the others without a gap, and the root is never one of them.
 #pragma once
 
@@ -23,10 +30,11 @@
 #include <vector>
 
 #include "model/accel/bvh4.h"
+#include "model/accel/compact_node.h"
 
 namespace ctu::accel {
 
-inline constexpr std::uint32_t kNodeBytes = 112;  ///< without masks
+inline constexpr std::uint32_t kNodeBytes = 112;  ///< without masks, boxes in binary32
 inline constexpr std::uint32_t kTriangleBytes = 40;
 inline constexpr std::uint32_t kImageSectionAlignmentBytes = 64;
 
@@ -35,14 +43,21 @@ struct ImageLayout {
   std::uint32_t node_alignment_bytes = 4;      ///< a power of two, at least 4
   std::uint32_t triangle_alignment_bytes = 4;  ///< likewise
   std::uint32_t bare_nodes = 0;                ///< without masks although mask_bits is not 0; partition.h orders them
+  std::uint32_t box_bits = kFullBoxBits;       ///< of a coordinate: 32, or 16, 12 or 8 of a tree that is quantized
   bool operator==(const ImageLayout&) const = default;
 };
 
-/// Throws Error unless the alignments are powers of two within bounds and mask_bits is not beyond any mask.
+/// Throws Error unless the alignments are powers of two within bounds, mask_bits is not beyond any mask and box_bits is
+/// one of four.
 void validate(const ImageLayout& layout);
 
 /// Bytes of one lane's mask.
 constexpr std::uint32_t mask_bytes(const ImageLayout& layout) { return (layout.mask_bits + 7) / 8; }
+
+/// Bytes of a node's boxes and children; its masks follow.
+constexpr std::uint32_t node_body_bytes(const ImageLayout& layout) {
+  return layout.box_bits == kFullBoxBits ? kNodeBytes : compact_node_bytes(layout.box_bits);
+}
 
 struct Image {
   ImageLayout layout;
@@ -67,10 +82,10 @@ struct Image {
 
 /// The mask of node n, lane l is `masks[(n * 4 + l) * words_per_mask]` and the words behind it, lowest bits first;
 /// bits from mask_bits on are dropped. `masks` may be null when layout.mask_bits is 0. Throws Error on a layout that
-/// is not one (alignment, words that do not hold mask_bits).
+/// is not one (alignment, words that do not hold mask_bits), and on boxes that its box_bits cannot say.
 Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask, const ImageLayout& layout);
 
-/// Reading one thing at its address. Throws Error when the index is out of range.
+/// Reading one thing at its address, boxes decoded. Throws Error when the index is out of range.
 Node4 read_node(const Image& image, std::uint32_t node);
 LeafTriangle read_triangle(const Image& image, std::uint32_t triangle);
 /// Fills ceil(mask_bits / 64) words. Throws Error for a node that carries no masks.

@@ -2,10 +2,13 @@
 //
 //   in   node    a context and the node whose bytes have come
 //   out  tested  the lanes hit; times and boxes stay with the context
-//   latency box_test.latency (4 subtract, 4 multiply, 3 compare: 11), one node a cycle
+//   latency box_test.latency (4 subtract, 4 multiply, 3 compare: 11), one node a cycle; where the image's boxes are of
+//           reduced precision, box_decode.latency (1 convert, 4 add: 5) in front of it, in the same rigid pipeline
 //   stalls: output_full
 //
-// Stated for both twins in docs/unit.md. Twin in gates: rtl/box_test.sv.
+// Boxes of reduced precision become binary32 planes by accel::decode_plane; the image (unit_image.h) has done so.
+//
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/box_test.sv, rtl/box_decode.sv.
 #pragma once
 
 #include <bit>
@@ -14,6 +17,7 @@
 #include "model/pipeline/link.h"
 #include "model/pipeline/pipelined.h"
 #include "model/pipeline/unit_config.h"
+#include "model/pipeline/unit_image.h"
 
 namespace ctu::pipeline {
 
@@ -25,8 +29,10 @@ class BoxTest {
   typename Wiring::template In<RefToken> node;
   typename Wiring::template Out<NodeToken> tested;
 
-  BoxTest(const UnitConfig& config, Contexts& contexts, Source& source)
-      : contexts_(contexts), source_(source), pipe_(config.box_test.latency) {}
+  BoxTest(const UnitConfig& config, const UnitImage& image, Contexts& contexts, Source& source)
+      : contexts_(contexts),
+        source_(source),
+        pipe_(config.box_test.latency + (image.decodes_boxes() ? config.box_decode.latency : 0)) {}
 
   bool step(Cycle now) {
     return step_pipelined(now, node, tested, pipe_, account, [&](const RefToken& token) {

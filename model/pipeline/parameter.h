@@ -24,6 +24,8 @@ struct Parameter {
   std::vector<std::string> choices;  ///< of strings
   std::function<ParameterValue(const UnitConfig&)> get;
   std::function<void(UnitConfig&, const ParameterValue&)> set;
+  /// It came when hashes of configurations were in use already: at its default it is no part of them.
+  bool new_since_hashes = false;
 };
 
 /// Every parameter, in the order of the documentation.

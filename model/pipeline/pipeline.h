@@ -67,7 +67,7 @@ struct Stages {
       : ray_queue(s.config, s.contexts, s.source, feed, !Source::kComputes),
         scheduler(s.config, s.contexts, s.source),
         node_fetch(s.config, s.image, s.contexts),
-        box_test(s.config, s.contexts, s.source),
+        box_test(s.config, s.image, s.contexts, s.source),
         child_sort(s.config, s.contexts, s.source),
         traversal_stack(s.config, s.contexts, s.source, s.log, s.image),
         leaf_fetch(s.config, s.image, s.contexts),

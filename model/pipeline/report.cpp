@@ -91,6 +91,9 @@ std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& ima
     lines.push_back(most.tables->tables().empty()
                         ? "table_fetch and its memory client: the design has no tables; one stage, three links"
                         : "table_fetch and its memory client: all tables are on chip; one stage, three links");
+  if (!image.decodes_boxes())
+    lines.push_back(
+        fmt::format("box_decode: the image's boxes are binary32; {} cycles of box_test", config.box_decode.latency));
   if (image.stack_bound() <= config.stack.entries)
     lines.push_back(
         fmt::format("spills of traversal_stack and their memory client: no ray of this tree can hold more than "

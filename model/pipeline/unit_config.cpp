@@ -27,7 +27,8 @@ Parameter integer(std::string key, std::string unit, Range range, Field field, s
                       range.power_of_two,
                       {},
                       {},
-                      {}};
+                      {},
+                      false};
   const UnitConfig defaults;
   parameter.default_value = static_cast<std::int64_t>(field(defaults));
   parameter.get = [field](const UnitConfig& config) -> ParameterValue {
@@ -166,6 +167,11 @@ void add_memory(Parameters& list) {
 }
 
 void add_node_path(Parameters& list) {
+  list.push_back(integer(
+      "box_decode.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.box_decode.latency; },
+      "Boxes of reduced precision: steps to binary32 1, directed add of the origin 4. In front of the box test; not "
+      "there where boxes are binary32."));
+  list.back().new_since_hashes = true;
   list.push_back(integer(
       "box_test.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.box_test.latency; },
       "Subtract 4, multiply 4, compare tree 3."));

@@ -58,6 +58,9 @@ struct UnitConfig {
   CacheConfig node_cache, leaf_cache;
   MemoryConfig memory;
   struct {
+    int latency = 5;
+  } box_decode;  ///< only where the image's boxes are of reduced precision
+  struct {
     int latency = 11;
   } box_test;
   struct {

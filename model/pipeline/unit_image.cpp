@@ -8,6 +8,7 @@ namespace ctu::pipeline {
 
 UnitImage::UnitImage(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic)
     : masked_nodes_(image.masked_nodes()),
+      box_bits_(image.layout.box_bits),
       bare_base_(image.node_address(masked_nodes_)),
       bare_stride_(image.bare_node_stride_bytes),
       node_base_(image.node_base),

@@ -50,6 +50,9 @@ class UnitImage {
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(primitives_.size()); }
   /// Entries a ray's stack can hold at most when the nearest child never goes there: 3 for each level.
   int stack_bound() const { return 3 * depth_; }
+  /// Bits of a coordinate of the boxes as they lie in memory; below 32 they are decoded before the box test.
+  bool decodes_boxes() const { return box_bits_ != accel::kFullBoxBits; }
+  std::uint32_t box_bits() const { return box_bits_; }
   /// First byte behind the image: where spilled stack entries go.
   std::uint64_t end() const { return end_; }
 
@@ -74,7 +77,7 @@ class UnitImage {
   void read_masks(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic);
   void read_indices(const accel::Image& image);
 
-  std::uint32_t masked_nodes_ = 0;
+  std::uint32_t masked_nodes_ = 0, box_bits_ = accel::kFullBoxBits;
   std::uint64_t bare_base_ = 0, bare_stride_ = 0;
   std::uint64_t node_base_ = 0, node_stride_ = 0, triangle_base_ = 0, triangle_stride_ = 0, end_ = 0;
   int depth_ = 0;

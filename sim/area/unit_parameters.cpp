@@ -103,13 +103,15 @@ void add_masks(Collector& all, const pipeline::UnitConfig& config, const cull::M
 }  // namespace
 
 RtlParameters unit_parameters(const pipeline::UnitConfig& config, const cull::MaskOptions& masks,
-                              const std::filesystem::path& top) {
+                              const std::filesystem::path& top, std::uint32_t box_bits) {
   const Design design = config.mask_test.design;
   if (design == Design::Ideal)
     throw Error("mask_test.design", "ideal exists in software only", "choose another design");
   Collector all(top);
   all.set("DESIGN", static_cast<int>(design));
   all.set("SLOT_BITS", bits_for(config.unit.contexts));
+  all.set_if_there("BOX_BITS", box_bits, 32, "--box-bits");
+  if (box_bits != 32) all.set("DECODE_LATENCY", config.box_decode.latency);
   all.set("STACK_ENTRIES", static_cast<int>(std::bit_ceil(static_cast<unsigned>(config.stack.entries))));
   add_caches(all, config);
   add_latencies(all, config);

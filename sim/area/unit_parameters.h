@@ -9,10 +9,10 @@
 
 namespace ctu::area {
 
-/// Of masks count R, R_ray and the number of entries. Both caches have the sets, ways and miss registers of the larger
-/// one, as one parameter says it for both. The stack can spill. `top` is the source of the unit. Throws Error when the
-/// RTL does not have what the configuration asks for.
+/// Of masks count R, R_ray and the number of entries; `box_bits` of a coordinate of the image's boxes. Both caches have
+/// the sets, ways and miss registers of the larger one, as one parameter says it for both. The stack can spill. `top`
+/// is the source of the unit. Throws Error when the RTL does not have what the configuration asks for.
 RtlParameters unit_parameters(const pipeline::UnitConfig& config, const cull::MaskOptions& masks,
-                              const std::filesystem::path& top);
+                              const std::filesystem::path& top, std::uint32_t box_bits = 32);
 
 }  // namespace ctu::area

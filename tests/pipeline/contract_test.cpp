@@ -20,6 +20,7 @@ using pipeline::UnitResult;
 struct Case {
   Design design;
   cull::MaskOptions masks = {};
+  std::uint32_t box_bits = accel::kFullBoxBits;
 };
 constexpr cull::MaskOptions kCompressed{.entries = 64};
 constexpr Case kCases[] = {{Design::None},
@@ -35,17 +36,22 @@ constexpr Case kCases[] = {{Design::None},
                            {Design::BitTable, {.resolution = 3, .ray_resolution = 5, .entries = 16}},
                            {Design::Projection, {.resolution = 6, .ray_resolution = 13}},
                            {Design::Projection, {.resolution = 8, .ray_resolution = 24}},
-                           {Design::Comparators, {.resolution = 6, .ray_resolution = 6, .entries = 200}}};
+                           {Design::Comparators, {.resolution = 6, .ray_resolution = 6, .entries = 200}},
+                           {Design::None, {}, 8},
+                           {Design::Projection, {}, 12},
+                           {Design::BitTable, kCompressed, 16},
+                           {Design::Comparators, {.resolution = 6, .ray_resolution = 6}, 8}};
 
 std::string name_of(const Case& c) {
   return std::string(cull::to_string(c.design)) + ", R " + std::to_string(c.masks.resolution) + ", R_ray " +
-         std::to_string(c.masks.ray_resolution) + ", " + std::to_string(c.masks.entries) + " entries";
+         std::to_string(c.masks.ray_resolution) + ", " + std::to_string(c.masks.entries) + " entries, " +
+         std::to_string(c.box_bits) + " bits";
 }
 
 World& world_of(const Case& c) {
   static std::map<std::string, std::unique_ptr<World>> worlds;
   auto& world = worlds[name_of(c)];
-  if (!world) world = std::make_unique<World>("gen:hair-ball?strands=120", c.design, 200, c.masks);
+  if (!world) world = std::make_unique<World>("gen:hair-ball?strands=120", c.design, 200, c.masks, c.box_bits);
   return *world;
 }
 
@@ -70,6 +76,8 @@ std::vector<UnitConfig> timing_configs(const World& world) {
   set(11).stack = {.entries = 1, .push_width = 1, .spill_batch = 1};
   set(12).stack = {.entries = 3, .push_width = 3, .spill_batch = 2};
   set(13).box_test.latency = 1;
+  set(13).box_decode.latency = 1;
+  set(14).box_decode.latency = 31;
   set(13).child_sort.latency = 1;
   set(13).mask_test.latency = 1;
   set(13).cell_locate.latency = 1;

@@ -81,6 +81,7 @@ Cycle lonely_latency(const World& world, const UnitConfig& c, int triangles, boo
   const Cycle scheduling = hop + 1;
   Cycle time = n(c.ray_setup.interval - 1 + c.ray_setup.latency);
   time += scheduling + hop + fetch_time(c, c.node_cache, node_lines, miss);
+  if (image.layout.box_bits != accel::kFullBoxBits) time += n(c.box_decode.latency);
   time += hop + n(c.box_test.latency) + mask_time(world, c, miss) + hop + n(c.child_sort.latency);
   time += hop + 1;  // the stack forwards the nearest child
   time += scheduling + hop + fetch_time(c, c.leaf_cache, leaf_lines, miss);
@@ -94,6 +95,8 @@ std::vector<UnitConfig> single_ray_configs(const World& world) {
   std::vector<UnitConfig> configs(8, ideal(world.config()));
   configs[1].memory.line_bytes = 64;
   configs[1].box_test.latency = 1;
+  configs[1].box_decode.latency = 8;
+  configs[2].box_decode.latency = 1;
   configs[1].child_sort.latency = 7;
   configs[2].memory.latency = 400;
   configs[2].memory.interval = 9;
@@ -134,7 +137,9 @@ TEST(Timing, a_lonely_ray_takes_exactly_the_sum_of_its_latencies_cold_and_warm) 
   for (const auto& [design, options] : cases)
     for (const int triangles : {1, 5}) {
       // Two equal rays and one context: the second starts when the first is gone, with warm caches.
-      World world(stacked_leaves(1, triangles), design, {ray_through_leaves(), ray_through_leaves()}, options);
+      const std::uint32_t box_bits = triangles == 1 ? accel::kFullBoxBits : 12;
+      World world(stacked_leaves(1, triangles), design, {ray_through_leaves(), ray_through_leaves()}, options,
+                  box_bits);
       int number = 0;
       for (const UnitConfig& config : single_ray_configs(world))
         for (const bool exec : {false, true}) {

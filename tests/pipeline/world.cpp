@@ -46,6 +46,11 @@ std::vector<intersect::Ray> lines_through(const accel::Bvh4& tree, int count) {
   return rays;
 }
 
+accel::Bvh4 quantized(accel::Bvh4 tree, std::uint32_t box_bits) {
+  if (box_bits != accel::kFullBoxBits) accel::quantize_boxes(tree, box_bits, 1);
+  return tree;
+}
+
 cull::ObjectMasks masks_of(const accel::Bvh4& tree, cull::Design design, const cull::MaskOptions& options) {
   return design == cull::Design::None ? cull::ObjectMasks{} : cull::build_object_masks(tree, options, 1);
 }
@@ -67,27 +72,30 @@ std::uint64_t VectorFeed::total_rays() const {
   return rays;
 }
 
-World::World(const std::string& scene, cull::Design design, int rays, const cull::MaskOptions& options)
-    : World(accel::build(scene::load(scene).mesh, {}), design, {}, options) {
+World::World(const std::string& scene, cull::Design design, int rays, const cull::MaskOptions& options,
+             std::uint32_t box_bits)
+    : World(accel::build(scene::load(scene).mesh, {}), design, {}, options, box_bits) {
   record(lines_through(tree_, rays));
 }
 
 World::World(accel::Bvh4 tree, cull::Design design, const std::vector<intersect::Ray>& rays,
-             const cull::MaskOptions& options)
-    : tree_(std::move(tree)),
+             const cull::MaskOptions& options, std::uint32_t box_bits)
+    : tree_(quantized(std::move(tree), box_bits)),
       masks_(masks_of(tree_, design, options)),
       lut_(compress_masks(tree_, options, masks_)),
       tester_(design, options, lut_),
-      image_(make_image()) {
+      image_(make_image(box_bits)) {
   record(rays);
 }
 
-accel::Image World::make_image() const {
-  if (masks_.bits.empty()) return accel::make_image(tree_, nullptr, 0, {});
+accel::Image World::make_image(std::uint32_t box_bits) const {
+  accel::ImageLayout layout{.box_bits = box_bits};
+  if (masks_.bits.empty()) return accel::make_image(tree_, nullptr, 0, layout);
   const auto r = static_cast<std::uint32_t>(masks_.resolution);
-  if (lut_ == nullptr) return accel::make_image(tree_, masks_.bits.data(), masks_.words, {.mask_bits = r * r * r});
+  layout.mask_bits = lut_ == nullptr ? r * r * r : static_cast<std::uint32_t>(lut_->index_bits());
+  if (lut_ == nullptr) return accel::make_image(tree_, masks_.bits.data(), masks_.words, layout);
   const std::vector<std::uint64_t> indices(masks_.index.begin(), masks_.index.end());
-  return accel::make_image(tree_, indices.data(), 1, {.mask_bits = static_cast<std::uint32_t>(lut_->index_bits())});
+  return accel::make_image(tree_, indices.data(), 1, layout);
 }
 
 void World::record(const std::vector<intersect::Ray>& rays) {

@@ -58,7 +58,9 @@ std::vector<pipeline::UnitConfig> configs_of(const World& world) {
 TEST(Modes, all_end_on_the_same_cycle_with_the_same_events_and_accounts) {
   for (const Design design :
        {Design::None, Design::MaskLut, Design::BitTable, Design::Dedup, Design::Projection, Design::Comparators}) {
-    const World world("gen:hair-ball?strands=80", design, 150, {.entries = design == Design::BitTable ? 32 : 0});
+    const std::uint32_t box_bits = design == Design::MaskLut ? 8 : design == Design::Comparators ? 12 : 32;
+    const World world("gen:hair-ball?strands=80", design, 150, {.entries = design == Design::BitTable ? 32 : 0},
+                      box_bits);
     for (const auto& config : configs_of(world))
       for (const auto source : {unit::Source::Replay, unit::Source::Exec})
         for (const std::uint64_t stall_seed : {0, 77}) {
