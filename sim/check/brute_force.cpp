@@ -1,14 +1,26 @@
 #include "sim/check/brute_force.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 #include "model/intersect/triangle_test.h"
+#include "model/numeric/round.h"
 
 namespace ctu::sim::check {
 namespace {
 
 constexpr std::size_t kVector = 8;
+
+/// What tells triangles apart; -0 and 0 are two.
+std::array<std::uint32_t, 9> bits_of(const accel::LeafTriangle& t) {
+  std::array<std::uint32_t, 9> bits;
+  std::size_t i = 0;
+  for (const Vec3* v : {&t.v0, &t.v1, &t.v2})
+    for (int axis = 0; axis < 3; ++axis) bits[i++] = numeric::bits((*v)[axis]);
+  return bits;
+}
 
 /// The ray's line in the form of the triangle test's shear, in binary64.
 struct Shear {
@@ -47,16 +59,29 @@ void edge_distances(const double* const (&x)[3], const double* const (&y)[3], co
 
 }  // namespace
 
-BruteForce::BruteForce(const accel::Bvh4& bvh)
-    : bvh_(bvh), padded_((bvh.triangles.size() + kVector - 1) / kVector * kVector), distance_(padded_) {
+BruteForce::BruteForce(const accel::Bvh4& bvh) : bvh_(bvh) {
+  group_equal_triangles();
+  padded_ = (groups_.size() + kVector - 1) / kVector * kVector;
+  distance_.resize(padded_);
   for (int axis = 0; axis < 3; ++axis) {
     coordinate_[axis].resize(3 * padded_);
     for (std::size_t i = 0; i < padded_; ++i) {
-      const accel::LeafTriangle& t = bvh.triangles[std::min(i, bvh.triangles.size() - 1)];
+      const accel::LeafTriangle& t = bvh.triangles[members_[groups_[std::min(i, groups_.size() - 1)].first]];
       coordinate_[axis][i] = t.v0[axis];
       coordinate_[axis][padded_ + i] = t.v1[axis];
       coordinate_[axis][2 * padded_ + i] = t.v2[axis];
     }
+  }
+}
+
+void BruteForce::group_equal_triangles() {
+  members_.resize(bvh_.triangles.size());
+  std::iota(members_.begin(), members_.end(), 0u);
+  const auto key = [&](std::uint32_t i) { return bits_of(bvh_.triangles[i]); };
+  std::stable_sort(members_.begin(), members_.end(), [&](auto a, auto b) { return key(a) < key(b); });
+  for (std::uint32_t i = 0; i < members_.size(); ++i) {
+    if (i == 0 || key(members_[i]) != key(members_[i - 1])) groups_.push_back({i, i});
+    groups_.back().last = i + 1;
   }
 }
 
@@ -75,12 +100,15 @@ const std::vector<Meeting>& BruteForce::meetings(const intersect::PreparedRay& p
   edge_distances(x, y, z, origin, shear.sx, shear.sy, padded_, distance_.data());
 
   oracle::RayOracle exact(ray);
-  for (std::uint32_t i = 0; i < bvh_.triangles.size(); ++i) {
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
     if (distance_[i] > 0) continue;
-    const accel::LeafTriangle& t = bvh_.triangles[i];
+    const Group& group = groups_[i];
+    const accel::LeafTriangle& t = bvh_.triangles[members_[group.first]];
     const auto result = intersect::triangle_test(prepared, t.v0, t.v1, t.v2, ray.tmax);
-    const Meeting meeting{i, exact.meets_triangle(t.v0, t.v1, t.v2), result.hit, result.t};
-    if (meeting.exact || meeting.accepted) meetings_.push_back(meeting);
+    const bool met = exact.meets_triangle(t.v0, t.v1, t.v2);
+    if (!met && !result.hit) continue;
+    for (std::uint32_t m = group.first; m < group.last; ++m)
+      meetings_.push_back({members_[m], met, result.hit, result.t});
   }
   counts_ += exact.counts();
   return meetings_;
