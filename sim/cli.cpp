@@ -321,7 +321,8 @@ void add_check(CLI::App& app, Parsed& parsed) {
   command->add_option("--seed", args.seed, "seed of every random number; 0: a fresh one, which is printed")
       ->capture_default_str();
   command->add_option("--generator", args.generators, "only these: NAME,...; --list prints all")->delimiter(',');
-  command->add_option("--scene", args.scene, "only this scene of each generator, as a failure names it");
+  command->add_option("--scene", args.scene, "only this scene of each generator, as a failure names it")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--design,--designs", args.designs, "mask-test designs, drawn for each scene; none: all");
   command->add_option("--r", args.resolution, "R: cells per axis of an object mask; 0: drawn from 2..8")
       ->capture_default_str();

@@ -156,6 +156,17 @@ void on_threads(int threads, const Body& body) {
   if (failure) std::rethrow_exception(failure);
 }
 
+/// What stops a campaign, a deadlock say, must not hide the scene that did it.
+SceneOutcome run_named(Worker& worker, const CampaignOptions& options, SceneNumber number) {
+  try {
+    return worker.run(number);
+  } catch (...) {
+    fmt::print(stderr, "stopped by: ctusim check --seed {} --generator {} --scene {}\n", options.seed,
+               generators()[number.generator].name, number.scene);
+    throw;
+  }
+}
+
 }  // namespace
 
 Budget parse_budget(const std::string& text) {
@@ -193,7 +204,7 @@ CampaignResult run_campaign(const CampaignOptions& options,
         if (place >= last) return;
         const SceneNumber number{options.generators[place % generators],
                                  options.only_scene.value_or(place / generators)};
-        ledger.put(place, worker.run(number), progress);
+        ledger.put(place, run_named(worker, options, number), progress);
       }
     } catch (...) {
       ledger.close();

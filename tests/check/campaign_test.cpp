@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "model/base/error.h"
 #include "model/numeric/round.h"
@@ -150,6 +151,46 @@ TEST(Campaign, every_kind_of_scene_goes_through_a_trace) {
     EXPECT_EQ(ctu::numeric::bits(block.rays[0].direction.z), ctu::numeric::bits(scene.hard.rays[ray].direction.z));
     EXPECT_EQ(trace.bvh().nodes.size(), scene.bvh.nodes.size()) << generators()[generator].name;
     trace.tester(scene.setup.design);
+  }
+}
+
+TEST(CheckCommand, reports_what_it_counted) {
+  const test::ScratchFolder folder;
+  const test::Outcome outcome =
+      test::run_program(folder.path(),
+                        "check --seed 77 --budget 3000 --generator through-vertices,hair --design comparators --r 6 "
+                        "--failures failures --json result.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("seed 77"), std::string::npos);
+  EXPECT_NE(outcome.out.find("hits lost: 0"), std::string::npos) << outcome.out;
+  const auto result = nlohmann::json::parse(test::read_text(folder.path() / "result.json"));
+  EXPECT_EQ(result["seed"], 77);
+  EXPECT_EQ(result["hits_lost"], 0);
+  EXPECT_GE(result["cases"].get<int>(), 3000);
+  ASSERT_EQ(result["generators"].size(), 2u);
+  EXPECT_EQ(result["generators"][1]["generator"], "hair");
+  EXPECT_EQ(result["cases"], result["generators"][0]["cases"].get<int>() + result["generators"][1]["cases"].get<int>());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "failures")) << "nothing failed";
+}
+
+TEST(CheckCommand, a_fresh_seed_is_printed_and_repeats_the_run) {
+  const test::ScratchFolder folder;
+  const auto counts_of = [](const std::string& out) { return out.substr(out.find("\ntotal"), 80); };
+  const test::Outcome first = test::run_program(folder.path(), "check --budget 2000 --generator soup --threads 1");
+  ASSERT_EQ(first.exit_code, 0) << first.out << first.err;
+  const std::string seed = first.out.substr(5, first.out.find('\n') - 5);
+  const test::Outcome again =
+      test::run_program(folder.path(), "check --budget 2000 --generator soup --threads 2 --seed " + seed);
+  EXPECT_EQ(counts_of(first.out), counts_of(again.out));
+}
+
+TEST(CheckCommand, refuses_what_is_not_there) {
+  const test::ScratchFolder folder;
+  for (const char* arguments :
+       {"--generator sope", "--design maskless", "--engine gates", "--budget never", "--r 9", "--r 4 --r-ray 3",
+        "--l 6", "--engine cycle --design ideal", "--json /nowhere/at/all.json", "--scene -1"}) {
+    const test::Outcome outcome = test::run_program(folder.path(), std::string("check --seed 1 ") + arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.out << outcome.err;
   }
 }
 
