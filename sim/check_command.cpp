@@ -8,6 +8,7 @@
 #include "model/base/error.h"
 #include "model/base/nearest.h"
 #include "model/base/parallel.h"
+#include "sim/check/comparison.h"
 #include "sim/check/failure_files.h"
 #include "sim/check/report.h"
 #include "sim/check/unit_execution.h"
@@ -129,6 +130,22 @@ CampaignOptions campaign_options(const CheckArgs& args) {
   return options;
 }
 
+/// R, R_ray and L that all forms have; 4, R and unlimited where not given.
+int compare(const CheckArgs& args, const CampaignOptions& options) {
+  cull::MaskOptions masks;
+  const check::SetupChoice choice = setup_choice(args);
+  masks.resolution = choice.resolution.value_or(masks.resolution);
+  masks.ray_resolution = choice.ray_resolution.value_or(masks.resolution);
+  masks.levels = choice.levels.value_or(masks.levels);
+  check::ComparisonResult result;
+  {
+    Progress bar("comparing", options.budget.cases, "cases");
+    result = check::compare_forms(options, masks, [&](std::uint64_t cases) { bar.update(cases); });
+  }
+  check::print_comparison(options, result);
+  return result.safe_forms_lost() == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int check_command(const CheckArgs& args) {
@@ -140,6 +157,7 @@ int check_command(const CheckArgs& args) {
   if (!args.json_path.empty()) check_writable(args.json_path);
   fmt::print("seed {}\n", options.seed);
   std::fflush(stdout);
+  if (args.compare) return compare(args, options);
   CampaignResult result;
   {
     Progress bar("checking", options.budget.cases, "cases");

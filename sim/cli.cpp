@@ -335,6 +335,9 @@ void add_check(CLI::App& app, Parsed& parsed) {
   command->add_option("--failures", args.failures,
                       "folder for failing cases: each a trace of one ray, which `run` replays, and its commands");
   command->add_option("--max-failures", args.kept_failures, "failing cases that are kept")->capture_default_str();
+  command->add_flag(
+      "--compare", args.compare,
+      "what the paper's Algorithm 1 in plain binary32 and padding by an epsilon lose, beside the safe forms");
   command->add_flag("--list", args.list, "print the generators, and do nothing else");
   command->callback([&] { parsed.exit_code = check_command(args); });
 }

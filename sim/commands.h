@@ -160,8 +160,9 @@ struct CheckArgs {
   std::string json_path;
   std::string failures;  ///< folder; empty: failing cases are printed only
   std::size_t kept_failures = 16;
-  bool list = false;    ///< the generators, and nothing else
-  std::string command;  ///< as it was typed
+  bool compare = false;  ///< naive forms of the node test with the safe ones
+  bool list = false;     ///< the generators, and nothing else
+  std::string command;   ///< as it was typed
 };
 
 int record_command(const RecordArgs& args);

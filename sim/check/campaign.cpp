@@ -122,6 +122,7 @@ class Ledger {
 
   void add(SceneOutcome& outcome) {
     result_.by_generator[next_ % options_.generators.size()] += outcome.tally;
+    if (options_.stop_at_failure && outcome.tally.lost != 0) closed_ = true;
     cases_ += outcome.tally.rays;
     for (Failure& failure : outcome.failures)
       if (result_.failures.size() < options_.kept_failures) result_.failures.push_back(std::move(failure));

@@ -31,6 +31,7 @@ struct CampaignOptions {
   MakeExecution make_execution;
   Budget budget;
   int threads = 1;
+  bool stop_at_failure = false;    ///< no scene is begun once one has lost a hit
   std::size_t kept_failures = 16;  ///< the first ones, in the order of scenes
 };
 

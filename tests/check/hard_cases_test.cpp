@@ -271,6 +271,22 @@ TEST(RayOrigins, lie_1e3_to_1e12_box_sizes_away) {
   EXPECT_GE(most, 2e11);
 }
 
+TEST(RayOrigins, are_far_while_directions_are_powers_of_two_on_some_axes) {
+  EXPECT_GE(share_of_rays("far-and-exact",
+                          [](const HardCase& hard, auto&, const Ray& ray) {
+                            int exact_axes = 0, rounded_axes = 0;
+                            for (int a = 0; a < 3; ++a) {
+                              int exponent = 0;
+                              const bool power = std::frexp(std::fabs(ray.direction[a]), &exponent) == 0.5f;
+                              if (ray.direction[a] != 0) ++(power ? exact_axes : rounded_axes);
+                            }
+                            const double size = test::longest_side(test::bounds(hard.mesh));
+                            const bool far = scene::length(scene::Vector64(ray.origin)) >= 1e3 * size;
+                            return far && exact_axes >= 1 && rounded_axes >= 1;
+                          }),
+            0.4);
+}
+
 TEST(RayIntervals, begin_or_end_where_they_say) {
   EXPECT_EQ(share_of_rays("one-time", [](auto&, auto&, const Ray& ray) { return ray.tmin == ray.tmax; }), 1);
   for (const char* name : {"ends-inside-cells", "ends-on-cell-borders"}) {

@@ -94,6 +94,33 @@ void far_away(CaseRandom& random, HardCase& out) {
   }
 }
 
+/// A scene of some units, long on some axes, seen from as far as binary32 can tell a unit apart, and farther.
+/// Components of directions are small integers, some of them powers of two: times are sharp on those axes, and whole
+/// cells uncertain on the others.
+void far_and_exact(CaseRandom& random, HardCase& out) {
+  Stage stage(random, out, Frame::scaled(random.pick(-60, 60)));
+  const Vector64 widths = each_axis([&] { return 1 << random.pick(1, 7); });
+  const auto lattice_point = [&] {
+    Vector64 point;
+    for (int a = 0; a < 3; ++a) axis_of(point, a) = random.pick(0, static_cast<int>(axis_of(widths, a)));
+    return point;
+  };
+  for (int triangles = random.pick(6, 40); triangles > 0; --triangles) {
+    const Vector64 at = lattice_point();
+    stage.triangle({at + lattice_point(), at + lattice_point(), at + lattice_point()});
+  }
+  for (int i = 0; i < kRays; ++i) {
+    const int bits = random.pick(0, 10);
+    const auto component = [&]() -> double {
+      const double size = random.chance(0.4) ? 1 << random.pick(0, bits) : random.pick(0, 1 << bits);
+      return random.either_sign(size);
+    };
+    const Vector64 target = stage.surface_point();
+    const double time = std::ldexp(1.0, random.pick(18, 26) - bits);
+    stage.ray({target - each_axis(component) * time, target, RangeMix::Any, random.pick(-30, 2)});
+  }
+}
+
 constexpr Generator kGenerators[] = {
     {"origins-on-faces", "origins on the faces of boxes", on_box_faces},
     {"origins-on-edges", "origins on the edges of boxes", on_box_edges},
@@ -102,6 +129,7 @@ constexpr Generator kGenerators[] = {
     {"origins-inside", "origins inside of boxes", inside_boxes},
     {"origins-on-geometry", "origins on vertices, edges and faces of triangles", on_geometry},
     {"origins-far-away", "origins 1e3 to 1e12 box sizes away", far_away},
+    {"far-and-exact", "far rays whose times are exact on some axes and rounded on others", far_and_exact},
 };
 
 }  // namespace

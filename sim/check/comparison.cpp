@@ -1,0 +1,178 @@
+#include "sim/check/comparison.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "model/base/parallel.h"
+#include "sim/check/brute_force.h"
+#include "sim/check/naive_test.h"
+
+namespace ctu::sim::check {
+namespace {
+
+constexpr Padding kPaddings[] = {{}, {1e-6f, 0}, {1e-4f, 0}, {0, 1e-4f}};
+static_assert(std::size(kPaddings) == kNaiveForms);
+
+/// What one form makes of a ray: the triangles that it comes to.
+class Visits {
+ public:
+  explicit Visits(const accel::Bvh4& bvh) : bvh_(bvh), reached_in_(bvh.triangles.size(), 0) {}
+
+  /// `test(node)` gives the lanes hit and passed.
+  template <class Test>
+  void walk(const Test& test, FormCounts& counts) {
+    ++turn_;
+    stack_.assign(1, 0);
+    while (!stack_.empty()) {
+      const accel::ChildRef ref = stack_.back();
+      stack_.pop_back();
+      if (accel::is_leaf(ref))
+        visit_leaf(ref, counts);
+      else
+        visit_node(ref, test(ref), counts);
+    }
+  }
+  bool reached(std::uint32_t triangle) const { return reached_in_[triangle] == turn_; }
+
+ private:
+  void visit_leaf(accel::ChildRef ref, FormCounts& counts) {
+    const auto count = static_cast<std::uint32_t>(accel::leaf_count(ref));
+    counts.tests += count;
+    for (std::uint32_t i = 0; i < count; ++i) reached_in_[accel::leaf_first(ref) + i] = turn_;
+  }
+  void visit_node(accel::ChildRef ref, LaneSets lanes, FormCounts& counts) {
+    ++counts.tests;
+    for (int lane = 0; lane < intersect::kLanes; ++lane) {
+      if ((lanes.hit >> lane & 1) == 0) continue;
+      ++counts.box_hits;
+      if ((lanes.pass >> lane & 1) != 0)
+        stack_.push_back(bvh_.nodes[ref].child[lane]);
+      else
+        ++counts.culled;
+    }
+  }
+
+  const accel::Bvh4& bvh_;
+  std::uint32_t turn_ = 0;
+  std::vector<std::uint32_t> reached_in_;  ///< by triangle: the walk that came to it last
+  std::vector<accel::ChildRef> stack_;
+};
+
+/// The unit's own node test.
+auto safe_test(const reference::NodeTest& test_node, const intersect::PreparedRay& ray) {
+  return [&](std::uint32_t node) {
+    intersect::SlabTimes times;
+    const cull::MaskTestResult result = test_node(ray, node, ray.ray.tmax, times);
+    return LaneSets{times.hit, result.pass};
+  };
+}
+
+ComparisonRow compare_scene(const CheckScene& scene, const cull::MaskTester& comparators) {
+  const cull::ProjectionTable& table = *scene.tester->projection_table();
+  std::vector<NaiveTest> naive;
+  for (const Padding& padding : kPaddings) naive.emplace_back(scene.bvh, scene.masks.masks, table, padding);
+  const reference::NodeTest by_table = scene.node_test();
+  const reference::NodeTest by_comparators(scene.bvh, &scene.masks.masks, comparators);
+  BruteForce brute_force(scene.bvh);
+  Visits visits(scene.bvh);
+  ComparisonRow row;
+  for (const intersect::Ray& ray : scene.hard.rays) {
+    ++row.rays;
+    const intersect::PreparedRay prepared = intersect::prepare_ray(ray);
+    const std::vector<Meeting>& meetings = brute_force.meetings(prepared);
+    for (const Meeting& meeting : meetings) row.exact_hits += meeting.exact;
+    for (std::size_t form = 0; form < kForms.size(); ++form) {
+      FormCounts& counts = row.forms[form];
+      if (form < kNaiveForms)
+        visits.walk([&](std::uint32_t node) { return naive[form](ray, node); }, counts);
+      else
+        visits.walk(safe_test(form == kNaiveForms ? by_table : by_comparators, prepared), counts);
+      for (const Meeting& meeting : meetings) counts.lost += meeting.exact && !visits.reached(meeting.triangle);
+    }
+  }
+  return row;
+}
+
+double per_million(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 1e6 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+void print_row(std::string_view name, const ComparisonRow& row) {
+  fmt::print("{:<24}{:>12}", name, row.exact_hits);
+  for (const FormCounts& form : row.forms) fmt::print("{:>13.1f}", per_million(form.lost, row.exact_hits));
+  for (const FormCounts& form : row.forms) fmt::print("{:>8.2f}", 100e-6 * per_million(form.culled, form.box_hits));
+  for (const FormCounts& form : row.forms)
+    fmt::print("{:>8.2f}", static_cast<double>(form.tests) / static_cast<double>(std::max<std::uint64_t>(row.rays, 1)));
+  fmt::print("\n");
+}
+
+}  // namespace
+
+ComparisonRow& ComparisonRow::operator+=(const ComparisonRow& other) {
+  rays += other.rays;
+  exact_hits += other.exact_hits;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    forms[i].lost += other.forms[i].lost;
+    forms[i].box_hits += other.forms[i].box_hits;
+    forms[i].culled += other.forms[i].culled;
+    forms[i].tests += other.forms[i].tests;
+  }
+  return *this;
+}
+
+std::uint64_t ComparisonResult::safe_forms_lost() const {
+  std::uint64_t lost = 0;
+  for (const ComparisonRow& row : by_generator)
+    for (std::size_t form = kNaiveForms; form < kForms.size(); ++form) lost += row.forms[form].lost;
+  return lost;
+}
+
+ComparisonResult compare_forms(const CampaignOptions& options, const cull::MaskOptions& masks,
+                               const std::function<void(std::uint64_t cases)>& progress) {
+  const auto started = std::chrono::steady_clock::now();
+  const DrawSetup fixed = [&](CaseRandom&) { return CullingSetup{cull::Design::Projection, masks, 4}; };
+  const cull::MaskTester comparators(cull::Design::Comparators, masks);
+  TesterCache testers;
+  ComparisonResult result;
+  result.by_generator.resize(options.generators.size());
+  // A round is a scene of every generator, so that no two threads count in one row.
+  for (std::uint64_t scene = options.only_scene.value_or(0);; ++scene) {
+    parallel_chunks(options.generators.size(), 1, options.threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const SceneNumber number{options.generators[i], scene};
+        CaseRandom random = scene_random(options.seed, number);
+        result.by_generator[i] += compare_scene(make_scene(options.seed, number, fixed, random, testers), comparators);
+      }
+    });
+    std::uint64_t cases = 0;
+    for (const ComparisonRow& row : result.by_generator) cases += row.rays;
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    if (progress) progress(cases);
+    const bool used_up =
+        options.budget.cases != 0 ? cases >= options.budget.cases : result.seconds >= options.budget.seconds;
+    if (used_up || options.only_scene) return result;
+  }
+}
+
+void print_comparison(const CampaignOptions& options, const ComparisonResult& result) {
+  fmt::print("\n{:<24}{:>12}", "", "exact hits");
+  fmt::print("{:^78}{:^48}{:^48}\n{:36}", "hits lost per million exact hits", "culled, % of box hits",
+             "tests a ray (nodes, triangles)", "");
+  for (const std::string_view form : kForms)
+    fmt::print("{:>13}", form.substr(0, form.find(' ')) == "plain" ? "plain" : form);
+  for (int group = 0; group < 2; ++group)
+    for (const char* form : {"plain", "t 1e-6", "t 1e-4", "b 1e-4", "tables", "compar."}) fmt::print("{:>8}", form);
+  fmt::print("\n");
+  ComparisonRow total;
+  for (std::size_t i = 0; i < result.by_generator.size(); ++i) {
+    print_row(generators()[options.generators[i]].name, result.by_generator[i]);
+    total += result.by_generator[i];
+  }
+  print_row("all", total);
+  fmt::print("{} cases in {:.1f} s\n", total.rays, result.seconds);
+}
+
+}  // namespace ctu::sim::check
