@@ -4,7 +4,7 @@
 //
 // Parameters fix its structure, straps (inputs that keep their value while it runs) the rest. What a design or a scene
 // does not need is not there: DESIGN none has neither cell_locate nor mask_test, HAS_SPILLS 0 no way from the stack to
-// memory, TABLE_CACHE 0 no table_fetch.
+// memory, TABLE_CACHE 0 no table_fetch; with TABLE_CACHE 1 all tables lie in memory and none is on chip.
 //
 // The register files of the contexts lie between the stages: rays, best hits, times of the slab test, and keys or touched
 // cells. Nodes, leaves and stacks by context are in node_fetch, leaf_fetch and traversal_stack.
@@ -28,6 +28,8 @@ module ctu_unit #(
     parameter int UNITS = 1,                // lanes located at once
     parameter int NODE_PORTS = 1,
     parameter int LEAF_PORTS = 1,
+    parameter bit TABLE_CACHE = 1'b0,       // of designs that have tables only
+    parameter int TABLE_PORTS = 1,
     parameter int STACK_ENTRIES = 16,       // of a context on chip, a power of two
     parameter bit HAS_SPILLS = 1'b1,
     parameter int MAX_SETS = 128,           // of each cache
@@ -44,12 +46,12 @@ module ctu_unit #(
     parameter int SORT_LATENCY = 3,
     parameter int TRIANGLE_LATENCY = 45,
     parameter int HIT_LATENCY = 2,
-    parameter int LOAD_BITS = 64,           // of a table's row at the load port
+    parameter int LOAD_BITS = `CTU_LOAD_BITS(DESIGN, R, ENTRIES),  // of a table's row at the load port
     localparam int SET_BITS = MAX_SETS == 1 ? 1 : $clog2(MAX_SETS),
     localparam int WAY_BITS = $clog2(MAX_WAYS + 1),
     localparam int MSHR_BITS = $clog2(MAX_MSHRS + 1),
     localparam int HIT_LATENCY_BITS = $clog2(MAX_HIT_LATENCY + 1),
-    localparam int CLIENTS = HAS_SPILLS ? 3 : 2
+    localparam int CLIENTS = TABLE_CACHE ? 4 : HAS_SPILLS ? 3 : 2
 ) (
     input logic clk_i,
     input logic rst_i,
@@ -66,6 +68,12 @@ module ctu_unit #(
     input logic [        WAY_BITS-1:0] leaf_ways_i,
     input logic [       MSHR_BITS-1:0] leaf_mshrs_i,
     input logic [HIT_LATENCY_BITS-1:0] leaf_hit_latency_i,
+    input logic [        SET_BITS-1:0] table_set_mask_i,
+    input logic [        WAY_BITS-1:0] table_ways_i,
+    input logic [       MSHR_BITS-1:0] table_mshrs_i,
+    input logic [HIT_LATENCY_BITS-1:0] table_hit_latency_i,
+    input logic [  4*ADDRESS_BITS-1:0] table_base_i,         // of each table, the first one lowest
+    input logic [                 3:0] bit_row_shift_i,      // a bit row takes 1 << this bytes in memory
     input logic [    ADDRESS_BITS-1:0] node_base_i,
     input logic [                12:0] node_stride_i,
     input logic [                30:0] masked_nodes_i,
@@ -120,7 +128,9 @@ module ctu_unit #(
     input logic [         27:0] load_row_i,
     input logic [LOAD_BITS-1:0] load_data_i,
 
-    output logic                row_left_out_o,  // a ray needs a row that ROWS leaves out: its hit is not to be used
+    // A ray needs a row that ROWS leaves out: its hit is not to be used.
+    output logic                 row_left_out_o,
+    output logic [SLOT_BITS-1:0] row_left_out_slot_o,
 
     // Accounts of the stages, in the order of links.svh.
     output logic [4*`CTU_STAGES-1:0] activity_o,
@@ -139,6 +149,7 @@ module ctu_unit #(
   localparam int LANE_BYTES = (MASK_BITS + 7) / 8;
   localparam int NODE_BYTES = 112 + 4 * LANE_BYTES;
   localparam int KEY_BITS = COMPARATORS != 0 ? CELLS : 31;
+  localparam int FETCHED_BITS = TABLE_CACHE ? `CTU_FETCHED_BITS(DESIGN, R, ENTRIES, ROWS) : 1;
 
   localparam int REF = SLOT_BITS + 32;
   localparam int NODE = SLOT_BITS + `CTU_NODE_FIELDS;
@@ -343,8 +354,9 @@ module ctu_unit #(
       .activity_o(activity_o[4*`CTU_SCHEDULER+:4])
   );
 
-  // Readers of a node, first one lowest: box_test, traversal_stack, cell_locate, mask_test.
-  localparam int NODE_READERS = HAS_MASK_TEST ? 4 : 2;
+  // Readers of a node, first one lowest: box_test, traversal_stack, cell_locate, mask_test; table_fetch, of indices.
+  localparam bit FETCHES_BY_INDEX = TABLE_CACHE && ENTRIES > 0;
+  localparam int NODE_READERS = FETCHES_BY_INDEX ? 5 : HAS_MASK_TEST ? 4 : 2;
   logic [NODE_READERS*SLOT_BITS-1:0] node_slot;
   logic [NODE_READERS*768-1:0] node_boxes;
   logic [NODE_READERS*128-1:0] node_children;
@@ -437,7 +449,6 @@ module ctu_unit #(
   generate
     if (HAS_MASK_TEST) begin : g_culling
       `CTU_LINK(box_to_locate, `CTU_BOX_TO_LOCATE, NODE)
-      `CTU_LINK(locate_to_mask, `CTU_LOCATE_TO_MASK, NODE)
       `CTU_LINK(mask_to_sort, `CTU_MASK_TO_SORT, NODE)
       `CTU_NO_LINK(`CTU_BOX_TO_SORT)
       assign push[`CTU_BOX_TO_LOCATE] = tested_push;
@@ -462,6 +473,9 @@ module ctu_unit #(
           .read_data_o({t1, far_up, far_down, near_up, near_down})
       );
 
+      // What is located goes to mask_test, or to table_fetch first.
+      logic located_ready, located_push, fetched_valid, fetched_pop;
+      logic [NODE-1:0] located, fetched;
       logic [SLOT_BITS-1:0] key_slot, mask_slot, key_write_slot;
       logic [UNITS-1:0] key_write;
       logic [2*UNITS-1:0] key_lane;
@@ -480,9 +494,9 @@ module ctu_unit #(
           .tested_valid_i(valid[`CTU_BOX_TO_LOCATE]),
           .tested_data_i(box_to_locate_out),
           .tested_pop_o(pop[`CTU_BOX_TO_LOCATE]),
-          .located_ready_i(ready[`CTU_LOCATE_TO_MASK]),
-          .located_push_o(push[`CTU_LOCATE_TO_MASK]),
-          .located_data_o(locate_to_mask_in),
+          .located_ready_i(located_ready),
+          .located_push_o(located_push),
+          .located_data_o(located),
           .context_slot_o(locate_slot),
           .times_near_down_i(near_down),
           .times_near_up_i(near_up),
@@ -503,24 +517,116 @@ module ctu_unit #(
       );
 
       // Keys or touched cells by context, a file for each lane, as the lanes of a node are located one after the other.
+      // Read by mask_test, and by table_fetch before it.
+      localparam int KEY_READERS = TABLE_CACHE ? 2 : 1;
+      logic [KEY_READERS*SLOT_BITS-1:0] key_slots;
+      logic [4*KEY_READERS*KEY_BITS-1:0] keys_read;  // by lane
       logic [4*KEY_BITS-1:0] keys;
+      assign key_slots[SLOT_BITS-1:0] = key_slot;
+      assign row_left_out_slot_o = key_slot;  // keys are read in the cycle in which a row turns out to be left out
       for (genvar lane = 0; lane < 4; lane++) begin : g_keys
         logic [UNITS-1:0] write;
-        for (genvar unit = 0; unit < UNITS; unit++) begin : g_unit
-          assign write[unit] = key_write[unit] && key_lane[2*unit+:2] == 2'(lane);
+        for (genvar u = 0; u < UNITS; u++) begin : g_unit
+          assign write[u] = key_write[u] && key_lane[2*u+:2] == 2'(lane);
         end
         context_file #(
             .WIDTH(KEY_BITS),
             .SLOT_BITS(SLOT_BITS),
-            .WRITES(UNITS)
+            .WRITES(UNITS),
+            .READS(KEY_READERS)
         ) file (
             .clk_i,
             .write_i(write),
             .write_slot_i({UNITS{key_write_slot}}),
             .write_data_i(keys_located),
-            .read_slot_i(key_slot),
-            .read_data_o(keys[KEY_BITS*lane+:KEY_BITS])
+            .read_slot_i(key_slots),
+            .read_data_o(keys_read[KEY_READERS*KEY_BITS*lane+:KEY_READERS*KEY_BITS])
         );
+        assign keys[KEY_BITS*lane+:KEY_BITS] = keys_read[KEY_READERS*KEY_BITS*lane+:KEY_BITS];
+      end
+
+      logic [SLOT_BITS-1:0] row_slot;
+      logic [4*FETCHED_BITS-1:0] rows_fetched;
+      if (TABLE_CACHE) begin : g_tables
+        `CTU_LINK(locate_to_table, `CTU_LOCATE_TO_TABLE, NODE)
+        `CTU_LINK(table_to_mask, `CTU_TABLE_TO_MASK, NODE)
+        `CTU_LINK(table_to_memory, `CTU_TABLE_TO_MEMORY, REQUEST)
+        `CTU_LINK(memory_to_table, `CTU_MEMORY_TO_TABLE, RESPONSE)
+        `CTU_NO_LINK(`CTU_LOCATE_TO_MASK)
+        assign located_ready = ready[`CTU_LOCATE_TO_TABLE];
+        assign push[`CTU_LOCATE_TO_TABLE] = located_push;
+        assign locate_to_table_in = located;
+        assign fetched_valid = valid[`CTU_TABLE_TO_MASK];
+        assign fetched = table_to_mask_out;
+        assign pop[`CTU_TABLE_TO_MASK] = fetched_pop;
+
+        localparam int INDICES = ENTRIES > 0 ? 4 * INDEX_BITS : 4;
+        logic [SLOT_BITS-1:0] table_slot;
+        logic [4*31-1:0] table_keys;
+        logic [INDICES-1:0] indices;
+        assign key_slots[SLOT_BITS+:SLOT_BITS] = table_slot;
+        for (genvar lane = 0; lane < 4; lane++) begin : g_keys
+          assign table_keys[31*lane+:31] = 31'(keys_read[KEY_BITS*(2*lane+1)+:KEY_BITS]);
+        end
+        if (FETCHES_BY_INDEX) begin : g_indices
+          assign node_slot[4*SLOT_BITS+:SLOT_BITS] = table_slot;
+          assign indices = node_masks[16*LANE_BITS+:4*LANE_BITS];
+        end else begin : g_no_indices
+          assign indices = '0;
+        end
+        table_fetch #(
+            .DESIGN(DESIGN),
+            .R(R),
+            .R_RAY(R_RAY),
+            .ENTRIES(ENTRIES),
+            .ROWS(ROWS),
+            .DISTINCT(DISTINCT),
+            .PROJECTION_TABLES(PROJECTION_TABLES),
+            .SLOT_BITS(SLOT_BITS),
+            .ADDRESS_BITS(ADDRESS_BITS),
+            .LINE_BYTES(LINE_BYTES),
+            .PORTS(TABLE_PORTS),
+            .MAX_SETS(MAX_SETS),
+            .MAX_WAYS(MAX_WAYS),
+            .MAX_MSHRS(MAX_MSHRS),
+            .MAX_HIT_LATENCY(MAX_HIT_LATENCY)
+        ) table_fetch_stage (
+            .clk_i,
+            .rst_i,
+            .set_mask_i(table_set_mask_i),
+            .ways_i(table_ways_i),
+            .mshrs_i(table_mshrs_i),
+            .hit_latency_i(table_hit_latency_i),
+            .table_base_i,
+            .bit_row_shift_i,
+            .requests_valid_i(valid[`CTU_LOCATE_TO_TABLE]),
+            .requests_data_i(locate_to_table_out),
+            .requests_pop_o(pop[`CTU_LOCATE_TO_TABLE]),
+            .fills_valid_i(valid[`CTU_MEMORY_TO_TABLE]),
+            .fills_data_i(memory_to_table_out),
+            .fills_pop_o(pop[`CTU_MEMORY_TO_TABLE]),
+            .misses_ready_i(ready[`CTU_TABLE_TO_MEMORY]),
+            .misses_push_o(push[`CTU_TABLE_TO_MEMORY]),
+            .misses_data_o(table_to_memory_in),
+            .done_ready_i(ready[`CTU_TABLE_TO_MASK]),
+            .done_push_o(push[`CTU_TABLE_TO_MASK]),
+            .done_data_o(table_to_mask_in),
+            .activity_o(activity_o[4*`CTU_TABLE_FETCH+:4]),
+            .key_slot_o(table_slot),
+            .key_i(table_keys),
+            .index_i(indices),
+            .row_slot_i(row_slot),
+            .row_o(rows_fetched)
+        );
+      end else begin : g_on_chip
+        `CTU_LINK(locate_to_mask, `CTU_LOCATE_TO_MASK, NODE)
+        assign located_ready = ready[`CTU_LOCATE_TO_MASK];
+        assign push[`CTU_LOCATE_TO_MASK] = located_push;
+        assign locate_to_mask_in = located;
+        assign fetched_valid = valid[`CTU_LOCATE_TO_MASK];
+        assign fetched = locate_to_mask_out;
+        assign pop[`CTU_LOCATE_TO_MASK] = fetched_pop;
+        assign rows_fetched = '0;
       end
 
       mask_test #(
@@ -535,13 +641,14 @@ module ctu_unit #(
           .ROWS(ROWS),
           .LATENCY(MASK_LATENCY),
           .SECOND_LATENCY(MASK_SECOND_LATENCY),
-          .SLOT_BITS(SLOT_BITS)
+          .SLOT_BITS(SLOT_BITS),
+          .CACHED(TABLE_CACHE)
       ) mask_test_stage (
           .clk_i,
           .rst_i,
-          .located_valid_i(valid[`CTU_LOCATE_TO_MASK]),
-          .located_data_i(locate_to_mask_out),
-          .located_pop_o(pop[`CTU_LOCATE_TO_MASK]),
+          .located_valid_i(fetched_valid),
+          .located_data_i(fetched),
+          .located_pop_o(fetched_pop),
           .survivors_ready_i(ready[`CTU_MASK_TO_SORT]),
           .survivors_push_o(push[`CTU_MASK_TO_SORT]),
           .survivors_data_o(mask_to_sort_in),
@@ -549,8 +656,8 @@ module ctu_unit #(
           .key_i(keys),
           .mask_slot_o(mask_slot),
           .mask_i(node_masks[12*LANE_BITS+:4*LANE_BITS]),
-          .row_slot_o(),
-          .row_i(4'd0),  // tables are on chip
+          .row_slot_o(row_slot),
+          .row_i(rows_fetched),
           .load_valid_i,
           .load_table_i,
           .load_row_i,
@@ -571,6 +678,7 @@ module ctu_unit #(
       assign pop[`CTU_BOX_TO_SORT] = survivors_pop;
       assign locate_slot = '0;
       assign row_left_out_o = 1'b0;
+      assign row_left_out_slot_o = '0;
       assign activity_o[4*`CTU_CELL_LOCATE+:4] = `CTU_IDLE;
       assign activity_o[4*`CTU_MASK_TEST+:4] = `CTU_IDLE;
     end
@@ -771,7 +879,8 @@ module ctu_unit #(
       .activity_o(activity_o[4*`CTU_RESULT_QUEUE+:4])
   );
 
-  // Clients of memory: node_fetch, leaf_fetch, and where there is one the stack, whose requests alone carry a line.
+  // Clients of memory: node_fetch, leaf_fetch, and where there is one the stack, whose requests alone carry a line, and
+  // table_fetch, which is the fourth whether or not there is a third.
   logic [CLIENTS-1:0] requests_valid, requests_pop, answers_ready, answers_push;
   logic [CLIENTS*REQUEST-1:0] requests;
   logic [RESPONSE-1:0] answer;
@@ -794,6 +903,25 @@ module ctu_unit #(
       assign written_line = g_spills.stack_to_memory_out[LINE-1:0];
     end else begin : g_no_stack_client
       assign written_line = '0;
+      if (CLIENTS > 2) begin : g_gap
+        assign requests_valid[2] = 1'b0;
+        assign requests[2*REQUEST+:REQUEST] = '0;
+        assign answers_ready[2] = 1'b0;
+      end
+    end
+    if (TABLE_CACHE) begin : g_table_client
+      assign requests_valid[3] = valid[`CTU_TABLE_TO_MEMORY];
+      assign requests[3*REQUEST+:REQUEST] = g_culling.g_tables.table_to_memory_out;
+      assign pop[`CTU_TABLE_TO_MEMORY] = requests_pop[3];
+      assign answers_ready[3] = ready[`CTU_MEMORY_TO_TABLE];
+      assign push[`CTU_MEMORY_TO_TABLE] = answers_push[3];
+      assign g_culling.g_tables.memory_to_table_in = answer;
+    end else begin : g_no_table_client
+      `CTU_NO_LINK(`CTU_LOCATE_TO_TABLE)
+      `CTU_NO_LINK(`CTU_TABLE_TO_MASK)
+      `CTU_NO_LINK(`CTU_TABLE_TO_MEMORY)
+      `CTU_NO_LINK(`CTU_MEMORY_TO_TABLE)
+      assign activity_o[4*`CTU_TABLE_FETCH+:4] = `CTU_IDLE;
     end
   endgenerate
   assign mem_asked_o = requests_valid;
@@ -824,10 +952,4 @@ module ctu_unit #(
       .mem_answer_take_o,
       .mem_busy_i
   );
-
-  `CTU_NO_LINK(`CTU_LOCATE_TO_TABLE)
-  `CTU_NO_LINK(`CTU_TABLE_TO_MASK)
-  `CTU_NO_LINK(`CTU_TABLE_TO_MEMORY)
-  `CTU_NO_LINK(`CTU_MEMORY_TO_TABLE)
-  assign activity_o[4*`CTU_TABLE_FETCH+:4] = `CTU_IDLE;
 endmodule

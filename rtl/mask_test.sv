@@ -17,7 +17,6 @@
 // A host fills the tables before it lets rays in: memories are numbered and rows have the content of
 // cull::TableContent (model/cull/table_content.h). Rows of tables that are CACHED lie beside the node and are read like
 // object masks; there are no banks then, and no memories here.
-`include "key_fold.svh"
 `include "mask_designs.svh"
 `include "tokens.svh"
 
@@ -41,18 +40,10 @@ module mask_test #(
     localparam int CELLS = R * R * R,
     localparam int KEY_BITS = DESIGN == `CTU_DESIGN_COMPARATORS ? CELLS : 31,
     localparam int INDEX_BITS = ENTRIES > 1 ? $clog2(ENTRIES) : 1,
-    localparam bit BIT_ROWS =
-        DESIGN == `CTU_DESIGN_BIT_TABLE || (DESIGN == `CTU_DESIGN_DEDUP && ENTRIES > 0),
-    localparam int ROW_WIDTH = BIT_ROWS ? ENTRIES : DESIGN == `CTU_DESIGN_PROJECTION ? R * R : CELLS,
-    localparam int LOAD_BITS = ENTRIES > 0 && !BIT_ROWS ? CELLS : ROW_WIDTH > 32 ? ROW_WIDTH : 32,
-    // Of a lane, with CACHED: {entry of the compression LUT, rows or the byte of a bit row, mirroring of dedup's id}.
-    localparam bit HAS_LUT = ENTRIES > 0 && !BIT_ROWS,
-    localparam bit MIRRORS = DESIGN != `CTU_DESIGN_COMPARATORS && ROWS != `CTU_ROWS_ALL && !BIT_ROWS,
-    localparam int ID_MIRROR_BITS = DESIGN == `CTU_DESIGN_DEDUP && MIRRORS ? 3 : 0,
-    localparam int ROWS_OF_LANE = DESIGN == `CTU_DESIGN_PROJECTION ? 3 : 1,
-    localparam int FETCHED_ROW_BITS =
-        DESIGN == `CTU_DESIGN_COMPARATORS ? 0 : BIT_ROWS ? 8 : ROW_WIDTH * ROWS_OF_LANE,
-    localparam int FETCHED_NEEDED = ID_MIRROR_BITS + FETCHED_ROW_BITS + (HAS_LUT ? CELLS : 0),
+    localparam bit BIT_ROWS = `CTU_BIT_ROWS(DESIGN, ENTRIES),
+    localparam int ROW_WIDTH = `CTU_ROW_WIDTH(DESIGN, R, ENTRIES),
+    localparam int LOAD_BITS = `CTU_LOAD_BITS(DESIGN, R, ENTRIES),
+    localparam int FETCHED_NEEDED = `CTU_FETCHED_BITS(DESIGN, R, ENTRIES, ROWS),
     localparam int FETCHED_BITS = CACHED && FETCHED_NEEDED > 0 ? FETCHED_NEEDED : 1
 ) (
     input  logic                                   clk_i,
@@ -84,6 +75,10 @@ module mask_test #(
     output logic [                            3:0] activity_o
 );
   localparam bit IS_PROJECTION = DESIGN == `CTU_DESIGN_PROJECTION;
+  localparam bit HAS_LUT = `CTU_READS_LUT(DESIGN, ENTRIES);
+  localparam bit MIRRORS = `CTU_ROWS_MIRROR(DESIGN, ENTRIES, ROWS);
+  localparam int ID_MIRROR_BITS = `CTU_ID_MIRROR_BITS(DESIGN, ENTRIES, ROWS);
+  localparam int ROWS_OF_LANE = `CTU_ROWS_OF_LANE(DESIGN);
   localparam bit IS_DEDUP = DESIGN == `CTU_DESIGN_DEDUP;
   localparam bit IS_KEYED = DESIGN != `CTU_DESIGN_COMPARATORS;
   // Memories that keys read; each is read by KEY_READS rows of a lane.
@@ -91,12 +86,7 @@ module mask_test #(
   localparam int READS_OF_LANE = IS_KEYED ? ROWS_OF_LANE / KEY_TABLES : 1;
   localparam int LUT_TABLE = KEY_TABLES;
   localparam int AXES = IS_PROJECTION ? 2 : 3;
-  localparam int CELL_PAIRS = R_RAY * R_RAY;
-  localparam bit LEAVES_OUT = ROWS == `CTU_ROWS_REACHABLE && !IS_PROJECTION;
-  localparam int TABLE_ROWS =
-      ROWS == `CTU_ROWS_ALL ? CELL_PAIRS * CELL_PAIRS * (IS_PROJECTION ? 1 : CELL_PAIRS) :
-      BIT_ROWS ? `CTU_REVERSED_CLASSES(R_RAY) - (LEAVES_OUT ? `CTU_REVERSED_CLASSES(R_RAY - 2) : 0) :
-      `CTU_MIRRORED_CLASSES(AXES, R_RAY, 1'b1) - (LEAVES_OUT ? `CTU_MIRRORED_CLASSES(AXES, R_RAY - 2, 1'b1) : 0);
+  localparam int TABLE_ROWS = `CTU_KEY_ROWS(DESIGN, R_RAY, ENTRIES, ROWS);
   localparam int MIRROR_BITS = AXES * ROWS_OF_LANE;  // of a lane
   localparam int ROW_BITS = $clog2(TABLE_ROWS);
   localparam int ID_BITS = DISTINCT > 1 ? $clog2(DISTINCT) : 1;
@@ -140,43 +130,18 @@ module mask_test #(
     if (IS_KEYED) begin : g_keyed
       logic [4*ROWS_OF_LANE*ROW_BITS-1:0] row;
       for (genvar lane = 0; lane < 4; lane++) begin : g_lane
-        wire [14:0] cells_begin = key_i[31*lane+:15];
-        wire [14:0] cells_end = key_i[31*lane+15+:15];
         assign uncertain[lane] = key_i[31*lane+30];
-        logic [ROWS_OF_LANE-1:0] no_row;
-        assign left_out[lane] = |no_row;
-        if (IS_PROJECTION) begin : g_pairs
-          for (genvar pair = 0; pair < 3; pair++) begin : g_pair
-            localparam int A = pair == 1 ? 1 : 0;  // xy, yz, xz
-            localparam int B = pair == 0 ? 1 : 2;
-            key_row #(
-                .AXES(2),
-                .R_RAY(R_RAY),
-                .ROWS(ROWS),
-                .ROW_BITS(ROW_BITS)
-            ) number (
-                .begin_i({cells_begin[5*B+:5], cells_begin[5*A+:5]}),
-                .end_i({cells_end[5*B+:5], cells_end[5*A+:5]}),
-                .row_o(row[ROW_BITS*(3*lane+pair)+:ROW_BITS]),
-                .mirrored_o(mirror[2*(3*lane+pair)+:2]),
-                .left_out_o(no_row[pair])
-            );
-          end
-        end else begin : g_key
-          key_row #(
-              .AXES(3),
-              .R_RAY(R_RAY),
-              .ROWS(ROWS),
-              .MIRRORS(!BIT_ROWS),
-              .ROW_BITS(ROW_BITS)
-          ) number (
-              .begin_i(cells_begin),
-              .end_i(cells_end),
-              .row_o(row[ROW_BITS*lane+:ROW_BITS]),
-              .mirrored_o(mirror[3*lane+:3]),
-              .left_out_o(no_row[0])
-          );
-        end
+        lane_rows #(
+            .DESIGN(DESIGN),
+            .R_RAY(R_RAY),
+            .ENTRIES(ENTRIES),
+            .ROWS(ROWS)
+        ) rows_of_key (
+            .key_i(key_i[31*lane+:30]),
+            .row_o(row[ROW_BITS*ROWS_OF_LANE*lane+:ROW_BITS*ROWS_OF_LANE]),
+            .mirrored_o(mirror[MIRROR_BITS*lane+:MIRROR_BITS]),
+            .left_out_o(left_out[lane])
+        );
       end
       if (CACHED) begin : g_fetched
         assign key_rows = '0;

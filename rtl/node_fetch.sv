@@ -130,6 +130,7 @@ module node_fetch #(
       assign full = 4'd0;
     end else begin : g_masks
       wire done_bare = done_reference[30:0] >= masked_nodes_i;
+      wire unused_padding = &{1'b0, node};  // indices need not fill their bytes
       for (genvar lane = 0; lane < 4; lane++) begin : g_lane
         wire [LANE_BITS-1:0] mask = done_bare ? full_mask_i : node[896+8*MASK_WORDS*lane+:LANE_BITS];
         assign masks[LANE_BITS*lane+:LANE_BITS] = mask;

@@ -139,7 +139,11 @@ void add_run(CLI::App& app, Parsed& parsed) {
   command->add_option("--window", parsed.run.window, "cycles A:B of the waveform");
   command->add_option("--first", parsed.run.first_ray, "first ray")->capture_default_str();
   command->add_option("--rays", parsed.run.rays, "number of rays; 0: to the end")->capture_default_str();
-  command->callback([&] { parsed.exit_code = run_command(parsed.run); });
+  command->callback([&parsed, command] {
+    parsed.run.gives_mode = command->count("--mode") != 0;
+    parsed.run.gives_source = command->count("--source") != 0;
+    parsed.exit_code = run_command(parsed.run);
+  });
 }
 
 void add_compare(CLI::App& app, Parsed& parsed) {

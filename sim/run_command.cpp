@@ -21,6 +21,18 @@ void check_engine(const std::string& engine) {
               "give cycle, reference, rtl or both");
 }
 
+/// Options of the timed unit that another engine would leave unheeded.
+void check_engine_heeds(const RunArgs& args) {
+  const auto refuse = [&](const char* option, const char* why, const char* remedy) {
+    throw Error(option, fmt::format("engine {} {}", args.engine, why), remedy);
+  };
+  if (!args.waves_path.empty() && (args.engine == "rtl" || args.engine == "reference"))
+    refuse("--waves", "draws none", "give --engine cycle or both");
+  if (args.engine == "cycle") return;
+  if (args.gives_mode) refuse("--mode", "has one mode only", "leave it out, or give --engine cycle");
+  if (args.gives_source) refuse("--source", "computes all outcomes", "leave it out, or give --engine cycle");
+}
+
 /// "A:B" into the options.
 void parse_window(const std::string& window, unit::RunOptions& options) {
   const auto colon = window.find(':');
@@ -70,6 +82,7 @@ bool is_right(const RunRecord& record) {
 int run_command(const RunArgs& args) {
   RunPlan plan;
   check_engine(args.engine);
+  check_engine_heeds(args);
   plan.engine = args.engine;
   plan.config = load_config(args.unit.config_path, args.unit.sets);
   plan.options = run_options(args.unit);
@@ -77,8 +90,6 @@ int run_command(const RunArgs& args) {
   if (!args.window.empty()) parse_window(args.window, plan.options);
   if (!args.waves_path.empty() && args.window.empty())
     throw Error("--waves", "no window of cycles", "add --window A:B; a waveform of a whole run is gigabytes");
-  if (!args.waves_path.empty() && (args.engine == "rtl" || args.engine == "reference"))
-    throw Error("--waves", fmt::format("engine {} draws none", args.engine), "give --engine cycle or both");
   const LoadedTrace trace(args.trace);
   plan.range = trace.range(args.first_ray, args.rays);
   if (!args.json_path.empty()) check_writable(args.json_path);

@@ -44,8 +44,11 @@ class MemoryPort {
  private:
   /// Each miss register has one under way, and each context one refill of its stack.
   static std::size_t most_reads(const UnitConfig& config) {
-    return static_cast<std::size_t>(config.node_cache.mshrs + config.leaf_cache.mshrs + config.table_cache.mshrs +
-                                    config.unit.contexts);
+    std::size_t reads = 0;
+    for (const int count :
+         {config.node_cache.mshrs, config.leaf_cache.mshrs, config.table_cache.mshrs, config.unit.contexts})
+      reads += static_cast<std::size_t>(count);
+    return reads;
   }
 
   template <class Memory>

@@ -28,6 +28,11 @@ class TableLayout {
     if (table.by_bit) return {first + mask_index / 8, first + mask_index / 8};
     return {first, first + table.row_bytes - 1};
   }
+  /// Where a table's first row lies, and the log2 of the bytes from row to row.
+  std::uint64_t base(std::size_t table) const { return tables_[table].base; }
+  int stride_shift(std::size_t table) const { return tables_[table].stride_shift; }
+  /// Whether a read wants one byte of the table's rows.
+  bool is_read_by_bit(std::size_t table) const { return tables_[table].by_bit; }
   /// First byte behind the tables.
   std::uint64_t end() const { return end_; }
 

@@ -50,14 +50,22 @@ class Collector {
 };
 
 void add_caches(Collector& all, const pipeline::UnitConfig& config) {
-  const auto& [nodes, leaves, line_bytes] = std::tie(config.node_cache, config.leaf_cache, config.memory.line_bytes);
+  const int line_bytes = config.memory.line_bytes;
   all.set("LINE_BYTES", line_bytes);
-  all.set("NODE_PORTS", nodes.ports);
-  all.set("LEAF_PORTS", leaves.ports);
-  all.set("MAX_SETS", std::max(sets_of(nodes, line_bytes), sets_of(leaves, line_bytes)));
-  all.set("MAX_WAYS", std::max(ways_of(nodes), ways_of(leaves)));
-  all.set("MAX_MSHRS", std::max(nodes.mshrs, leaves.mshrs));
-  all.set("MAX_HIT_LATENCY", std::max({nodes.hit_latency, leaves.hit_latency, 1}));
+  all.set("NODE_PORTS", config.node_cache.ports);
+  all.set("LEAF_PORTS", config.leaf_cache.ports);
+  int sets = 1, ways = 1, mshrs = 1, hit_latency = 1;
+  for (const pipeline::CacheConfig* cache : {&config.node_cache, &config.leaf_cache, &config.table_cache}) {
+    if (cache == &config.table_cache && cache->bytes == 0) continue;  // the tables are on chip
+    sets = std::max(sets, sets_of(*cache, line_bytes));
+    ways = std::max(ways, ways_of(*cache));
+    mshrs = std::max(mshrs, cache->mshrs);
+    hit_latency = std::max(hit_latency, cache->hit_latency);
+  }
+  all.set("MAX_SETS", sets);
+  all.set("MAX_WAYS", ways);
+  all.set("MAX_MSHRS", mshrs);
+  all.set("MAX_HIT_LATENCY", hit_latency);
 }
 
 void add_latencies(Collector& all, const pipeline::UnitConfig& config) {
@@ -96,7 +104,8 @@ void add_masks(Collector& all, const pipeline::UnitConfig& config, const cull::M
   all.set("UNITS", test.design == Design::Comparators ? config.comparators.units : config.cell_locate.units);
   all.set("LOAD_BITS", load_bits(tables));
   all.set_if_there("ROWS", static_cast<int>(test.rows), static_cast<int>(cull::TableRows::All), "mask_test.rows");
-  all.set_if_there("TABLE_CACHE", config.table_cache.bytes > 0, 0, "table_cache.bytes");
+  const bool cached = config.table_cache.bytes > 0 && !tables.tables().empty();
+  all.set_if_there("TABLE_CACHE", cached, 0, "table_cache.bytes");
   all.set_if_there("TABLE_PORTS", config.table_cache.ports, 1, "table_cache.ports");
 }
 

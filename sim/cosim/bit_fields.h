@@ -22,6 +22,7 @@ class BitWriter {
     }
     return *this;
   }
+  std::size_t size() const { return at_; }  ///< bits written
   BitWriter& put(float value) { return put(std::bit_cast<std::uint32_t>(value), 32); }
 
  private:

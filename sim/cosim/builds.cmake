@@ -11,6 +11,10 @@ ctu_rtl_build(dedup ALL DESIGN dedup BANKS 2 MASK_SECOND_LATENCY 2 BOX_LATENCY 1
   COVERAGE line toggle)
 ctu_rtl_build(comparators ALL DESIGN comparators UNITS 4 LOCATE_LATENCY 12 RAY_SETUP_LATENCY 31)
 
+# Tables behind a cache: numbered masks of reachable keys, in two rounds and the shortest lines.
+ctu_rtl_build(dedup-cached ALL DESIGN dedup ROWS reachable DISTINCT 226 TABLE_CACHE 1 TABLE_PORTS 2 LINE_BYTES 32
+  SLOT_BITS 3 MAX_SETS 16 MAX_WAYS 4 STACK_ENTRIES 16 MASK_LATENCY 1 LEAF_PORTS 2 TRIANGLE_LATENCY 30)
+
 ctu_rtl_build(mask-lut-256 DESIGN mask-lut ENTRIES 256 BANKS 1)
 ctu_rtl_build(projection-r6 R 6 R_RAY 6 PROJECTION_TABLES 1 BANKS 8)
 ctu_rtl_build(projection-r-ray-8 R_RAY 8 UNITS 4 PORTS 4)

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "model/base/error.h"
-#include "model/pipeline/unit_image.h"
+#include "sim/cosim/table_image.h"
 
 namespace ctu::cosim {
 namespace {
@@ -71,9 +71,9 @@ void check_mask_test(Misfits& misfits, const RtlParameters& build, const pipelin
   }
   if (build.design == cull::Design::Projection)
     misfits.same("mask_test.projection_tables", build.projection_tables, config.mask_test.projection_tables);
-  misfits.same("table_cache", build.table_cache, config.table_cache.bytes > 0);
+  misfits.same("table_cache", build.table_cache, has_table_fetch(config, work));
   if (build.table_cache) {
-    misfits.same("table_cache.ports", build.table_ports, config.table_cache.ports);
+    check_cache(misfits, "table_cache", build, config.table_cache, build.table_ports);
   } else {
     misfits.same("mask_test.banks", build.banks, config.mask_test.banks);
     misfits.same("mask_test.ports", build.ports, config.mask_test.ports);

@@ -1,5 +1,8 @@
 #include "sim/cosim/rtl_run.h"
 
+#include <fmt/format.h>
+
+#include "model/base/error.h"
 #include "sim/cosim/table_image.h"
 
 namespace ctu::cosim {
@@ -9,7 +12,8 @@ using pipeline::Client;
 
 constexpr std::size_t kWrongHitsKept = 16;
 
-ImageStraps straps_of(const pipeline::Work& work, const pipeline::MemoryMap& map) {
+ImageStraps straps_of(const pipeline::UnitConfig& config, const pipeline::Work& work) {
+  const pipeline::MemoryMap map(config, pipeline::UnitImage(work.image, work.tester, false));
   const accel::Image& image = work.image;
   ImageStraps straps;
   straps.node_base = image.node_base;
@@ -23,6 +27,7 @@ ImageStraps straps_of(const pipeline::Work& work, const pipeline::MemoryMap& map
   straps.spill_region = map.spill_region;
   if (const cull::CompressionLut* lut = work.tester.compression_lut())
     straps.full_index = static_cast<std::uint64_t>(lut->entries() - 1);
+  strap_tables(straps, config, work);
   return straps;
 }
 
@@ -36,8 +41,7 @@ RtlRun::RtlRun(RtlUnit& unit, const pipeline::UnitConfig& config, const pipeline
       stalls_(stalls),
       stall_numbers_(stall_numbers),
       in_slot_(static_cast<std::size_t>(config.unit.contexts)) {
-  const pipeline::UnitImage unit_image(work.image, work.tester, false);
-  unit_.configure(config, straps_of(work, pipeline::MemoryMap(config, unit_image)));
+  unit_.configure(config, straps_of(config, work));
   load_tables(unit_, memory_.bytes(), config, work);
   next_block();
 }
@@ -87,10 +91,17 @@ void RtlRun::begin() {
 void RtlRun::end() {
   pipeline::Slot slot = 0;
   if (unit_.ray_taken(slot)) take_ray(slot);
+  if (unit_.row_left_out(slot)) throw_row_left_out(slot);
   const ReturnedRay returned = unit_.returned();
   if (returned.valid) give_back(returned);
   unit_.end_cycle();
   ++now_;
+}
+
+void RtlRun::throw_row_left_out(pipeline::Slot slot) const {
+  throw Error(fmt::format("ray {}, cycle {}", slot < in_slot_.size() ? in_slot_[slot].number : 0, now_),
+              "begins inside a box, and mask_test.rows = reachable leaves out the table rows of such rays",
+              "choose mask_test.rows = folded");
 }
 
 void RtlRun::take_ray(pipeline::Slot slot) {

@@ -24,7 +24,7 @@ class RtlRun {
 
   /// One cycle, but for its end: every probe of the unit can be read.
   void begin();
-  /// The end of the cycle.
+  /// The end of the cycle. Throws Error when a ray needs a row of a table that mask_test.rows leaves out.
   void end();
   bool done() const { return next_ray() == nullptr && returned_ == taken_; }
   pipeline::Cycle cycles() const { return now_; }
@@ -46,6 +46,7 @@ class RtlRun {
   void next_block();
   void take_ray(pipeline::Slot slot);
   void give_back(const ReturnedRay& returned);
+  [[noreturn]] void throw_row_left_out(pipeline::Slot slot) const;
   std::uint32_t stalled(pipeline::Side side) const;
 
   RtlUnit& unit_;

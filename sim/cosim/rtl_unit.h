@@ -47,6 +47,8 @@ struct ImageStraps {
   std::uint64_t triangle_base = 0, triangle_stride = 0;
   std::uint64_t spill_base = 0, spill_region = 0;
   std::uint64_t full_index = 0;  ///< of compressed masks, the last entry's
+  std::array<std::uint64_t, 4> table_base{};
+  int bit_row_shift = 0;  ///< log2 of a bit row's bytes
 };
 
 /// Both sides of a link in one cycle.
@@ -99,6 +101,8 @@ class RtlUnit {
   virtual bool answer_taken() const = 0;
   virtual bool ray_taken(pipeline::Slot& slot) const = 0;
   virtual ReturnedRay returned() const = 0;
+  /// Whether the ray in `slot` needs a row that mask_test.rows leaves out.
+  virtual bool row_left_out(pipeline::Slot& slot) const = 0;
   virtual LinkState link(int number) const = 0;
   virtual int activity(int stage) const = 0;
 };

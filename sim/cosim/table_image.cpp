@@ -1,14 +1,19 @@
 #include "sim/cosim/table_image.h"
 
-#include "model/cull/table_content.h"
+#include <cstring>
+
 #include "model/pipeline/memory_map.h"
-#include "model/pipeline/table_lines.h"
 
 namespace ctu::cosim {
 namespace {
 
-cull::TableContent content_of(const pipeline::UnitConfig& config, const pipeline::Work& work) {
+cull::OnChipTables tables_of(const pipeline::UnitConfig& config, const pipeline::Work& work) {
   return {work.tester, config.mask_test.rows, config.mask_test.projection_tables};
+}
+
+pipeline::TableLayout layout_of(const pipeline::UnitConfig& config, const pipeline::Work& work) {
+  const pipeline::UnitImage image(work.image, work.tester, false);
+  return {config, tables_of(config, work), pipeline::MemoryMap(config, image), image.compressed()};
 }
 
 void load_on_chip(RtlUnit& unit, const cull::TableContent& content) {
@@ -20,18 +25,43 @@ void load_on_chip(RtlUnit& unit, const cull::TableContent& content) {
 
 }  // namespace
 
-std::uint64_t bytes_behind_image(const pipeline::UnitConfig& config, const pipeline::Work& work) {
-  const pipeline::UnitImage image(work.image, work.tester, false);
-  const pipeline::MemoryMap map(config, image);
-  return map.table_base - map.round_up(work.image.bytes.size());
+bool has_table_fetch(const pipeline::UnitConfig& config, const pipeline::Work& work) {
+  return config.table_cache.bytes > 0 && !tables_of(config, work).tables().empty();
 }
 
-void load_tables(RtlUnit& unit, std::span<std::uint8_t>, const pipeline::UnitConfig& config,
-                 const pipeline::Work& work) {
-  if (config.mask_test.design == cull::Design::None || config.mask_test.design == cull::Design::Comparators) {
-    if (work.tester.compression_lut() == nullptr) return;
+void strap_tables(ImageStraps& straps, const pipeline::UnitConfig& config, const pipeline::Work& work) {
+  if (!has_table_fetch(config, work)) return;
+  const pipeline::TableLayout layout = layout_of(config, work);
+  for (std::size_t table = 0; table < tables_of(config, work).tables().size(); ++table) {
+    straps.table_base[table] = layout.base(table);
+    if (layout.is_read_by_bit(table)) straps.bit_row_shift = layout.stride_shift(table);
   }
-  if (config.table_cache.bytes == 0) load_on_chip(unit, content_of(config, work));
+}
+
+std::uint64_t bytes_behind_image(const pipeline::UnitConfig& config, const pipeline::Work& work) {
+  const pipeline::MemoryMap map(config, pipeline::UnitImage(work.image, work.tester, false));
+  const std::uint64_t end = has_table_fetch(config, work) ? layout_of(config, work).end() : map.table_base;
+  return end - map.round_up(work.image.bytes.size());
+}
+
+void write_tables(std::span<std::uint8_t> memory, const pipeline::TableLayout& layout,
+                  const cull::TableContent& content) {
+  for (std::size_t table = 0; table < content.tables().size(); ++table) {
+    const std::size_t bytes = (content.tables()[table].row_bits + 7) / 8;
+    for (std::uint64_t row = 0; row < content.tables()[table].rows; ++row)
+      std::memcpy(memory.data() + layout.base(table) + (row << layout.stride_shift(table)), content.row(table, row),
+                  bytes);
+  }
+}
+
+void load_tables(RtlUnit& unit, std::span<std::uint8_t> memory, const pipeline::UnitConfig& config,
+                 const pipeline::Work& work) {
+  if (tables_of(config, work).tables().empty()) return;
+  const cull::TableContent content(work.tester, config.mask_test.rows, config.mask_test.projection_tables);
+  if (config.table_cache.bytes == 0)
+    load_on_chip(unit, content);
+  else
+    write_tables(memory, layout_of(config, work), content);
 }
 
 }  // namespace ctu::cosim

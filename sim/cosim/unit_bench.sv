@@ -47,6 +47,8 @@ module unit_bench #(
     input logic [ 7:0] cache_ways_i        [3],
     input logic [ 7:0] cache_mshrs_i       [3],
     input logic [ 7:0] cache_hit_latency_i [3],
+    input logic [63:0] table_base_i        [4],
+    input logic [ 7:0] bit_row_shift_i,          // log2 of a bit row's bytes in memory
     input logic [63:0] node_base_i,
     input logic [15:0] node_stride_i,
     input logic [31:0] masked_nodes_i,
@@ -98,6 +100,7 @@ module unit_bench #(
     input logic [511:0] load_data_i,
 
     output logic         row_left_out_o,
+    output logic [  7:0] row_left_out_slot_o,
 
     input  logic [ 31:0] stall_push_i,
     input  logic [ 31:0] stall_pop_i,
@@ -109,10 +112,7 @@ module unit_bench #(
     output logic [  7:0] activity_o  [`CTU_STAGES]
 );
   localparam int ADDRESS_BITS = 40;
-  localparam int CELLS = R * R * R;
-  localparam bit BIT_ROWS = DESIGN == `CTU_DESIGN_BIT_TABLE || (DESIGN == `CTU_DESIGN_DEDUP && ENTRIES > 0);
-  localparam int ROW_WIDTH = BIT_ROWS ? ENTRIES : DESIGN == `CTU_DESIGN_PROJECTION ? R * R : CELLS;
-  localparam int LOAD_BITS = ENTRIES > 0 && !BIT_ROWS ? CELLS : ROW_WIDTH > 32 ? ROW_WIDTH : 32;
+  localparam int LOAD_BITS = `CTU_LOAD_BITS(DESIGN, R, ENTRIES);
   localparam int SET_BITS = MAX_SETS == 1 ? 1 : $clog2(MAX_SETS);
   localparam int WAY_BITS = $clog2(MAX_WAYS + 1);
   localparam int MSHR_BITS = $clog2(MAX_MSHRS + 1);
@@ -138,6 +138,8 @@ module unit_bench #(
       .UNITS(UNITS),
       .NODE_PORTS(NODE_PORTS),
       .LEAF_PORTS(LEAF_PORTS),
+      .TABLE_CACHE(TABLE_CACHE != 0),
+      .TABLE_PORTS(TABLE_PORTS),
       .STACK_ENTRIES(STACK_ENTRIES),
       .HAS_SPILLS(HAS_SPILLS != 0),
       .MAX_SETS(MAX_SETS),
@@ -169,6 +171,13 @@ module unit_bench #(
       .leaf_ways_i(WAY_BITS'(cache_ways_i[1])),
       .leaf_mshrs_i(MSHR_BITS'(cache_mshrs_i[1])),
       .leaf_hit_latency_i(5'(cache_hit_latency_i[1])),
+      .table_set_mask_i(SET_BITS'(cache_sets_i[2] - 16'd1)),
+      .table_ways_i(WAY_BITS'(cache_ways_i[2])),
+      .table_mshrs_i(MSHR_BITS'(cache_mshrs_i[2])),
+      .table_hit_latency_i(5'(cache_hit_latency_i[2])),
+      .table_base_i({ADDRESS_BITS'(table_base_i[3]), ADDRESS_BITS'(table_base_i[2]), ADDRESS_BITS'(table_base_i[1]),
+                     ADDRESS_BITS'(table_base_i[0])}),
+      .bit_row_shift_i(4'(bit_row_shift_i)),
       .node_base_i(ADDRESS_BITS'(node_base_i)),
       .node_stride_i(13'(node_stride_i)),
       .masked_nodes_i(31'(masked_nodes_i)),
@@ -215,6 +224,7 @@ module unit_bench #(
       .load_row_i(load_row_i[27:0]),
       .load_data_i(load_data_i[LOAD_BITS-1:0]),
       .row_left_out_o,
+      .row_left_out_slot_o(row_left_out_slot_o[SLOT_BITS-1:0]),
       .activity_o(activity),
       .stall_push_i(stall_push_i[`CTU_LINKS-1:0]),
       .stall_pop_i(stall_pop_i[`CTU_LINKS-1:0])
@@ -222,6 +232,7 @@ module unit_bench #(
 
   assign ray_slot_o[7:SLOT_BITS] = '0;
   assign return_slot_o[7:SLOT_BITS] = '0;
+  assign row_left_out_slot_o[7:SLOT_BITS] = '0;
   assign mem_asked_o = 4'(asked);
   assign mem_request_client_o[7:2] = '0;
   assign mem_request_address_o[63:ADDRESS_BITS] = '0;
@@ -270,7 +281,7 @@ module unit_bench #(
     end
     if (DESIGN != `CTU_DESIGN_NONE) begin : g_culling
       assign link_data_o[`CTU_BOX_TO_LOCATE] = 160'(unit.g_culling.box_to_locate_in);
-      assign link_data_o[`CTU_LOCATE_TO_MASK] = 160'(unit.g_culling.locate_to_mask_in);
+      assign link_data_o[`CTU_LOCATE_TO_MASK] = TABLE_CACHE != 0 ? '0 : 160'(unit.g_culling.located);
       assign link_data_o[`CTU_MASK_TO_SORT] = 160'(unit.g_culling.mask_to_sort_in);
       assign link_data_o[`CTU_BOX_TO_SORT] = '0;
     end else begin : g_no_culling
@@ -279,9 +290,17 @@ module unit_bench #(
       assign link_data_o[`CTU_MASK_TO_SORT] = '0;
       assign link_data_o[`CTU_BOX_TO_SORT] = 160'(unit.g_no_culling.box_to_sort_in);
     end
+    if (TABLE_CACHE != 0) begin : g_tables
+      assign link_data_o[`CTU_LOCATE_TO_TABLE] = 160'(unit.g_culling.g_tables.locate_to_table_in);
+      assign link_data_o[`CTU_TABLE_TO_MASK] = 160'(unit.g_culling.g_tables.table_to_mask_in);
+      assign link_data_o[`CTU_TABLE_TO_MEMORY] = 160'(unit.g_culling.g_tables.table_to_memory_in);
+      assign link_data_o[`CTU_MEMORY_TO_TABLE] =
+          160'(unit.g_culling.g_tables.memory_to_table_in[8*LINE_BYTES+:`CTU_ID_BITS]);
+    end else begin : g_no_tables
+      assign link_data_o[`CTU_LOCATE_TO_TABLE] = '0;
+      assign link_data_o[`CTU_TABLE_TO_MASK] = '0;
+      assign link_data_o[`CTU_TABLE_TO_MEMORY] = '0;
+      assign link_data_o[`CTU_MEMORY_TO_TABLE] = '0;
+    end
   endgenerate
-  assign link_data_o[`CTU_LOCATE_TO_TABLE] = '0;
-  assign link_data_o[`CTU_TABLE_TO_MASK] = '0;
-  assign link_data_o[`CTU_TABLE_TO_MEMORY] = '0;
-  assign link_data_o[`CTU_MEMORY_TO_TABLE] = '0;
 endmodule

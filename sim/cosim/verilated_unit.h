@@ -36,6 +36,8 @@ class VerilatedUnit final : public RtlUnit {
     set_cache(0, config.node_cache, config.memory.line_bytes);
     set_cache(1, config.leaf_cache, config.memory.line_bytes);
     set_cache(2, config.table_cache, config.memory.line_bytes);
+    std::copy(straps.table_base.begin(), straps.table_base.end(), &model_.table_base_i[0]);
+    model_.bit_row_shift_i = static_cast<std::uint8_t>(straps.bit_row_shift);
     model_.node_base_i = straps.node_base;
     model_.node_stride_i = static_cast<std::uint16_t>(straps.node_stride);
     model_.masked_nodes_i = static_cast<std::uint32_t>(straps.masked_nodes);
@@ -120,6 +122,10 @@ class VerilatedUnit final : public RtlUnit {
     const auto number = [&](std::size_t word) { return numeric::from_bits(model_.return_hit_o[word]); };
     return {
         model_.return_valid_o != 0, model_.return_slot_o, {number(3), number(2), number(1), model_.return_hit_o[0]}};
+  }
+  bool row_left_out(pipeline::Slot& slot) const override {
+    slot = model_.row_left_out_slot_o;
+    return model_.row_left_out_o;
   }
   LinkState link(int number) const override {
     const auto bit = [number](std::uint32_t bits) { return (bits >> number & 1) != 0; };

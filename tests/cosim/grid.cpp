@@ -38,9 +38,14 @@ struct Totals {
 class Worlds {
  public:
   test::World& get(const std::string& trace, const RtlParameters& build, int rays) {
-    auto& world = worlds_[fmt::format("{} {} {} {} {}", trace, static_cast<int>(build.design), build.resolution,
-                                      build.ray_resolution, build.entries)];
-    if (!world) world = make_grid_world(trace, build.design, mask_options(build), rays);
+    const bool from_outside = build.rows == cull::TableRows::Reachable;  // only these have rows
+    auto& world = worlds_[fmt::format("{} {} {} {} {} {}", trace, static_cast<int>(build.design), build.resolution,
+                                      build.ray_resolution, build.entries, from_outside)];
+    if (world) return *world;
+    world = make_grid_world(trace, build.design, mask_options(build), rays);
+    if (from_outside)
+      world =
+          std::make_unique<test::World>(world->tree(), build.design, rays_from_outside(*world), mask_options(build));
     return *world;
   }
 
@@ -59,9 +64,7 @@ LockStepResult run(const GridConfig& config, const std::string& trace, RtlUnit& 
   if (!reason.empty()) throw Error(config.build + " " + config.settings, reason, "change the grid or the build");
   LockStepOptions options;
   options.stall_seed = config.stall_seed;
-  const LockStepResult result =
-      run_lock_step(unit, unit_config(unit.parameters(), config.settings), {world.image(), world.tester(), model_feed},
-                    {world.image(), world.tester(), rtl_feed}, options);
+  const LockStepResult result = run_lock_step(unit, unit_configuration, model_work, rtl_work, options);
   const bool agree = !result.difference && result.rtl_wrong_hits == 0 && result.model.wrong_hits == 0;
   fmt::print("{:<18} {:<9} {:>6} {:>9} {:>11} {:>5}  {}{}\n", config.build, trace, result.model.rays, result.cycles,
              result.handshakes, agree ? 0 : 1, config.settings, config.stall_seed != 0 ? " stalled at random" : "");
@@ -108,8 +111,9 @@ int run_grid(const Arguments& arguments) {
     ++configs;
     const std::string hash = sim::config_hash(unit_config(unit->parameters(), config.settings));
     for (const std::string& trace : grid_traces()) {
-      const LockStepResult result =
-          run(config, trace, *unit, worlds.get(trace, unit->parameters(), arguments.rays), totals);
+      test::World& world = worlds.get(trace, unit->parameters(), arguments.rays);
+      if (world.rays() == 0) continue;  // shadow rays begin on surfaces, where no reachable row serves
+      const LockStepResult result = run(config, trace, *unit, world, totals);
       const std::string key = fmt::format("{} {}{},{},{}", hash, config.build,
                                           config.stall_seed == 0 ? "" : fmt::format(" stalls {}", config.stall_seed),
                                           trace, result.model.rays);

@@ -65,6 +65,21 @@ const std::vector<GridConfig>& grid_configs() {
       {"dedup", "", 0, true},
       {"dedup", "unit.contexts=9 scheduler.policy=round-robin", 39, true},
       {"dedup", "memory.model=ideal memory.latency=40 memory.interval=1", 40},
+      {"dedup-cached",
+       "unit.contexts=8 node_cache.bytes=1024 leaf_cache.bytes=1024 table_cache.bytes=1024 stack.spill_batch=4", 0,
+       true},
+      {"dedup-cached",
+       "unit.contexts=8 node_cache.bytes=2048 leaf_cache.bytes=2048 table_cache.bytes=32 table_cache.ways=1 "
+       "table_cache.mshrs=2 stack.entries=3 stack.spill_batch=2 memory.model=ideal memory.latency=60 memory.interval=2",
+       45, true},
+      {"dedup-cached",
+       "unit.contexts=3 node_cache.bytes=512 leaf_cache.bytes=512 table_cache.bytes=256 table_cache.ways=2 "
+       "table_cache.mshrs=1 table_cache.hit_latency=7 stack.spill_batch=4",
+       46},
+      {"dedup-cached",
+       "unit.contexts=7 node_cache.bytes=1024 leaf_cache.bytes=1024 table_cache.bytes=128 table_cache.ways=4 "
+       "table_cache.hit_latency=1 stack.spill_batch=1 memory.model=ideal memory.latency=1 memory.interval=1",
+       0},
       {"comparators", "", 0, true},
       {"comparators", "unit.contexts=13 node_cache.bytes=256 node_cache.ways=1", 41},
       {"comparators-r6", "", 0},

@@ -276,6 +276,12 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("run hair.ctut --window 5", "--window");
   expect_refused("run hair.ctut --engine hardware", "--engine");
   expect_refused("run hair.ctut --mode turbo", "--mode");
+  for (const std::string engine : {"reference", "rtl", "both"}) {
+    expect_refused("run hair.ctut --mode plain --engine " + engine, "--mode: engine " + engine);
+    expect_refused("run hair.ctut --source exec --engine " + engine, "--source: engine " + engine);
+  }
+  for (const std::string engine : {"reference", "rtl"})
+    expect_refused("run hair.ctut --waves w.vcd --window 0:9 --engine " + engine, "--waves: engine " + engine);
   expect_refused("record nowhere.obj -o x.ctut", "nowhere.obj");
   expect_refused("record gen:hair-bal -o x.ctut", "hair-ball");
   expect_refused("record gen:hair-ball -o x.ctut --size big", "--size");

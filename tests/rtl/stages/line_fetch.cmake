@@ -33,14 +33,3 @@ rtl_check(line_buffer SOURCES ${rtl}/line_buffer.sv)
 rtl_check(span_fetch SOURCES ${span_fetch_sources})
 rtl_check(node_fetch SOURCES ${span_fetch_sources} ${rtl}/node_fetch.sv)
 rtl_check(leaf_fetch SOURCES ${span_fetch_sources} ${rtl}/leaf_fetch.sv)
-
-# The control core in two rounds, as table_fetch needs it.
-set(two_rounds -GTWO_ROUNDS=1'b1 -GSLOT_BITS=4 -GPORTS=2 -GMAX_SETS=8 -GMAX_WAYS=4 -GMAX_HIT_LATENCY=5 -GMAX_LINES=24)
-ctu_verilate(rtl_line_fetch_two_rounds PREFIX VLineFetchTwoRounds TOP line_fetch SOURCES ${line_fetch_sources}
-  ARGS ${compact} ${two_rounds})
-rtl_mutants(two_rounds_mutants TOP line_fetch NAMES FetchSecondRoundLast SOURCES ${line_fetch_sources}
-  ARGS ${compact} ${two_rounds})
-ctu_test(test_rtl_table_lookup
-  SOURCES table_lookup_test.cpp
-  DEPENDS ctu_pipeline_test_support rtl_line_fetch_two_rounds ${two_rounds_mutants}
-  LABEL property)

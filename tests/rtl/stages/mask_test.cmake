@@ -1,6 +1,6 @@
 # The mask test, a model for each structure.
-set(mask_test_sources ${rtl}/table_bank.sv ${rtl}/table_turns.sv ${rtl}/table_memory.sv ${rtl}/mirror_fold.sv
-  ${rtl}/reverse_fold.sv ${rtl}/key_row.sv ${rtl}/mask_mirror.sv ${rtl}/mask_lane.sv)
+set(mask_test_sources ${rtl}/table_bank.sv ${rtl}/table_turns.sv ${rtl}/table_memory.sv ${lane_rows_sources}
+  ${rtl}/mask_mirror.sv ${rtl}/mask_lane.sv)
 set(mask_test_headers ${rtl}/mask_designs.svh ${rtl}/key_fold.svh ${rtl}/tokens.svh)
 set(mask_test_libraries "")
 # mask_test_model(Name PARAMETER=value ...)

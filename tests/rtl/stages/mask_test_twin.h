@@ -3,13 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <span>
 #include <string>
 
-#include "model/accel/image.h"
-#include "model/cull/table_content.h"
+#include "tests/rtl/stages/fetched_rows.h"
 #include "tests/rtl/stages/ports.h"
-#include "tests/rtl/stages/stage_run.h"
 
 namespace ctu::rtl {
 
@@ -17,11 +14,7 @@ template <class Model>
 class MaskTestTwin {
  public:
   MaskTestTwin(const test::World& world, const pipeline::UnitConfig& config, std::uint64_t stall_seed)
-      : world_(world),
-        config_(config),
-        on_chip_(world.tester(), config.mask_test.rows, config.mask_test.projection_tables),
-        content_(world.tester(), config.mask_test.rows, config.mask_test.projection_tables),
-        run_(world, config, stall_seed) {}
+      : world_(world), config_(config), rows_(world, config), run_(world, config, stall_seed) {}
 
   /// What the run has seen, for tests that want it to have seen something.
   struct Seen {
@@ -49,15 +42,17 @@ class MaskTestTwin {
 
   auto& stage() { return *run_.unit().stages().mask_test; }
 
+  const cull::TableContent& content() const { return rows_.content(); }
+
   void load_tables() {
     Words data(words_of<std::remove_reference_t<decltype(model_.load_data_i)>>());
     model_.load_valid_i = 1;
-    for (std::size_t table = 0; table < content_.tables().size(); ++table)
-      for (std::uint64_t row = 0; row < content_.tables()[table].rows; ++row) {
+    for (std::size_t table = 0; table < content().tables().size(); ++table)
+      for (std::uint64_t row = 0; row < content().tables()[table].rows; ++row) {
         model_.load_table_i = static_cast<std::uint8_t>(table);
         model_.load_row_i = static_cast<std::uint32_t>(row);
-        const std::uint64_t* const bits = content_.row(table, row);
-        for (std::size_t word = 0; word < 2 * content_.words(table) && word < data.size(); ++word)
+        const std::uint64_t* const bits = content().row(table, row);
+        for (std::size_t word = 0; word < 2 * content().words(table) && word < data.size(); ++word)
           data[word] = static_cast<std::uint32_t>(bits[word / 2] >> (32 * (word % 2)));
         set_port(model_.load_data_i, data);
         clock(model_);
@@ -118,52 +113,21 @@ class MaskTestTwin {
     return words;
   }
 
-  /// Object masks or indices; none of nodes that carry none.
-  std::vector<std::uint64_t> object_mask(const pipeline::ExecSource::Registers& r, int lane) const {
-    std::vector<std::uint64_t> mask(pipeline::ExecSource::kMaxWords);
-    const bool is_there = !accel::is_leaf(r.step.ref) && r.step.ref < world_.image().masked_nodes();
-    if (is_there) accel::read_mask(world_.image(), r.step.ref, lane, mask.data());
-    return mask;
-  }
-
   Words mask_words(unsigned slot) {
     Words words(words_of<std::remove_reference_t<decltype(model_.mask_i)>>());
     BitWriter writer(words.data());
     const auto* const r = registers(slot);
     for (int lane = 0; r != nullptr && lane < intersect::kLanes; ++lane)
-      put(writer, object_mask(*r, lane).data(), world_.image().layout.mask_bits);
+      put(writer, object_mask(world_.image(), *r, lane).data(), world_.image().layout.mask_bits);
     return words;
   }
 
-  /// What table_fetch has brought for the lanes: all of what they read but the numbers of ids.
   Words row_words(unsigned slot) {
     Words words(words_of<std::remove_reference_t<decltype(model_.row_i)>>());
     BitWriter writer(words.data());
     const auto* const r = registers(slot);
-    const bool compressed = world_.tester().compression_lut() != nullptr;
-    const bool mirrors = config_.mask_test.rows != cull::TableRows::All && !compressed;
-    for (int lane = 0; r != nullptr && lane < intersect::kLanes; ++lane) {
-      const auto index = compressed ? static_cast<std::uint32_t>(object_mask(*r, lane)[0]) : 0;
-      cull::TableRead reads[cull::kMaxReadsOfLane];
-      const cull::CellKey key{r->key[lane]};
-      int count = key.uncertain() ? -1 : on_chip_.reads(key, index, reads);
-      if (count < 0) count = on_chip_.reads({}, index, reads);  // no question: anything may stand there
-      for (const cull::TableRead& read : std::span(reads, static_cast<std::size_t>(count))) {
-        const std::uint64_t* const row = content_.row(read.table, read.row);
-        const std::string& name = content_.tables()[read.table].name;
-        if (name == "ids")
-          writer.put(*row, mirrors ? 3 : 0);
-        else if (name == "bit rows" || name == "bit table")
-          writer.put(row[index / 64] >> (index % 64 / 8 * 8), 8);
-        else
-          put(writer, row, content_.tables()[read.table].row_bits);
-      }
-    }
+    for (int lane = 0; r != nullptr && lane < intersect::kLanes; ++lane) rows_.put_lane(writer, *r, lane);
     return words;
-  }
-
-  static void put(BitWriter& writer, const std::uint64_t* words, std::uint32_t bits) {
-    for (std::uint32_t bit = 0; bit < bits; ++bit) writer.put(words[bit / 64] >> (bit % 64) & 1, 1);
   }
 
   std::uint32_t mask_bits() const {
@@ -173,8 +137,7 @@ class MaskTestTwin {
 
   const test::World& world_;
   pipeline::UnitConfig config_;
-  cull::OnChipTables on_chip_;
-  cull::TableContent content_;
+  FetchedRows rows_;
   StageRun run_;
   VerilatedContext context_;
   Model model_{from_noise(context_)};

@@ -14,11 +14,13 @@
 #include <vector>
 
 #include "model/pipeline/tapped_unit.h"
+#include "sim/cosim/bit_fields.h"
 #include "tests/oracle/seed.h"
 #include "tests/pipeline/world.h"
 
 namespace ctu::rtl {
 
+using cosim::BitWriter;
 using pipeline::Cycle;
 
 /// The run of a whole unit over a world's rays, cycle by cycle.
@@ -111,27 +113,6 @@ void reset(Model& model) {
   model.rst_i = 0;
   model.eval();
 }
-
-/// Writes fields into a wide vector, lowest bits first: what Verilator keeps in an array of 32-bit words.
-class BitWriter {
- public:
-  explicit BitWriter(std::uint32_t* words) : words_(words) {}
-  BitWriter& put(std::uint64_t value, int bits) {
-    for (int i = 0; i < bits; ++i, ++at_) {
-      const std::uint32_t bit = 1u << (at_ & 31);
-      if ((value >> i & 1) != 0)
-        words_[at_ / 32] |= bit;
-      else
-        words_[at_ / 32] &= ~bit;
-    }
-    return *this;
-  }
-  BitWriter& put(float value) { return put(std::bit_cast<std::uint32_t>(value), 32); }
-
- private:
-  std::uint32_t* words_;
-  std::size_t at_ = 0;
-};
 
 /// Reads fields from a wide vector, lowest bits first.
 class BitReader {

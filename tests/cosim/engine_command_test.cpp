@@ -1,0 +1,45 @@
+// `ctusim run --engine rtl|both` from the outside: what it ends with.
+#include <gtest/gtest.h>
+
+#include "tests/sim/program.h"
+
+namespace {
+
+using ctu::test::Outcome;
+using ctu::test::run_program;
+using ctu::test::ScratchFolder;
+
+class EngineCommandTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new ScratchFolder;
+    const Outcome outcome =
+        ctusim("record 'gen:hair-ball?strands=50&seed=7' -o hair.ctut --size 12x12 --rays diffuse --bounces 1");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static Outcome ctusim(const std::string& arguments) { return run_program(folder_->path(), arguments); }
+
+  static ScratchFolder* folder_;
+};
+ScratchFolder* EngineCommandTest::folder_ = nullptr;
+
+TEST_F(EngineCommandTest, the_unit_in_gates_returns_every_ray_alone_and_beside_the_model) {
+  for (const std::string engine : {"rtl", "both"}) {
+    const Outcome outcome = ctusim("run hair.ctut --engine " + engine);
+    EXPECT_EQ(outcome.exit_code, 0) << engine << "\n" << outcome.out << outcome.err;
+  }
+}
+
+TEST_F(EngineCommandTest, a_unit_without_progress_ends_with_exit_code_3) {
+  for (const std::string engine : {"rtl", "both"}) {
+    // No link moves between two rays that are returned.
+    const Outcome outcome =
+        ctusim("run hair.ctut --set result.interval=1000 --set watchdog.cycles=600 --engine " + engine);
+    EXPECT_EQ(outcome.exit_code, 3) << engine << "\n" << outcome.out << outcome.err;
+    EXPECT_NE(outcome.err.find("deadlock"), std::string::npos) << outcome.err;
+  }
+}
+
+}  // namespace
