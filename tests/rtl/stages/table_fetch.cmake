@@ -20,7 +20,7 @@ table_fetch_model(MaskLut DESIGN=2 PORTS=2)
 table_fetch_model(Dedup DESIGN=4 R_RAY=5 ROWS=1 DISTINCT=700 PORTS=2)
 table_fetch_model(DedupCompressed DESIGN=4 ENTRIES=300 PORTS=4)
 table_fetch_model(BitTable DESIGN=3 R_RAY=5 ROWS=2 ENTRIES=64)
-table_fetch_model(Comparators DESIGN=6 ENTRIES=32 PORTS=2)
+table_fetch_model(Comparators DESIGN=6 R=7 ENTRIES=32 PORTS=2)
 rtl_mutants(table_fetch_mutants TOP table_fetch NAMES FetchSecondRoundLast TableLinesRepeated RowOffsetIgnored
   SOURCES ${table_fetch_sources} ARGS ${table_fetch_args} -GDESIGN=4 -GR_RAY=5 -GROWS=1 -GDISTINCT=700 -GPORTS=2)
 ctu_test(test_rtl_table_fetch

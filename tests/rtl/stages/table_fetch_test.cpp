@@ -282,8 +282,9 @@ TEST(RtlTableFetch, bytes_of_bit_rows_of_reachable_keys) {
   expect_twins<VTableFetchBitTable>(
       {.design = Design::BitTable, .options = {.ray_resolution = 5, .entries = 64}, .rows = TableRows::Reachable});
 }
-TEST(RtlTableFetch, entries_of_the_compression_lut_for_comparators) {
-  expect_twins<VTableFetchComparators>({.design = Design::Comparators, .options = {.entries = 32}, .ports = 2});
+TEST(RtlTableFetch, entries_of_the_compression_lut_wider_than_a_line_for_comparators) {
+  expect_twins<VTableFetchComparators>(
+      {.design = Design::Comparators, .options = {.resolution = 7, .ray_resolution = 7, .entries = 32}, .ports = 2});
 }
 
 /// A broken twin must differ from the model.
