@@ -83,6 +83,7 @@ struct Parsed {
   RunArgs run;
   CompareArgs compare;
   CullingArgs culling;
+  MetamorphArgs metamorph;
   DecideArgs decide;
   PrecisionArgs precision;
   CompressionArgs compression;
@@ -162,6 +163,29 @@ void add_culling(CLI::App& app, Parsed& parsed) {
   command->add_option("--designs", parsed.culling.designs, "list of designs")->capture_default_str();
   command->add_flag("--markdown", parsed.culling.markdown, "print the rows of a Markdown table");
   command->callback([&] { parsed.exit_code = culling_command(parsed.culling); });
+}
+
+void add_metamorph(CLI::App& app, Parsed& parsed) {
+  auto* command = app.add_subcommand(
+      "metamorph",
+      "whole scenes scaled, moved, permuted and mirrored, rays reversed and aimed at the edges of what is closed: "
+      "answers that must be the same are compared, others judged by exact arithmetic");
+  MetamorphArgs& args = parsed.metamorph;
+  args.scene.rays = "all";
+  args.scene.size = "48x27";
+  add_scene_options(*command, args.scene, true);
+  command->add_option("--designs", args.designs, "list of designs")->capture_default_str();
+  command
+      ->add_option("--checks", args.checks,
+                   "list of powers, factors, moves, axes, mirrors, reversed, edges; the scene as it is always comes "
+                   "first")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--aimed", args.aimed, "rays at edges and vertices of a scene, at most; 0: at all of them")
+      ->capture_default_str();
+  command->add_option("--json", args.json_path, "write the result here");
+  command->add_flag("--markdown", args.markdown, "print Markdown tables, a row for each kind of transformation");
+  command->callback([&] { parsed.exit_code = metamorph_command(parsed.metamorph); });
 }
 
 void add_decide(CLI::App& app, Parsed& parsed) {
@@ -366,6 +390,7 @@ int run_cli(int argc, const char* const* argv) {
   add_run(app, parsed);
   add_compare(app, parsed);
   add_culling(app, parsed);
+  add_metamorph(app, parsed);
   add_decide(app, parsed);
   add_precision(app, parsed);
   add_compression(app, parsed);

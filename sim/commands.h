@@ -79,6 +79,15 @@ struct CullingArgs {
   bool markdown = false;
 };
 
+struct MetamorphArgs {
+  SceneArgs scene;
+  std::string designs = "ideal,mask-lut,projection,bit-table,dedup,comparators";
+  std::vector<std::string> checks{"all"};
+  std::uint64_t aimed = 20000;  ///< rays at edges and vertices, at most; 0: at all of them
+  std::string json_path;
+  bool markdown = false;
+};
+
 struct DecideArgs {
   SceneArgs scene;
   UnitArgs unit;
@@ -170,6 +179,7 @@ int record_command(const RecordArgs& args);
 int run_command(const RunArgs& args);
 int compare_command(const CompareArgs& args);
 int culling_command(const CullingArgs& args);
+int metamorph_command(const MetamorphArgs& args);
 int decide_command(const DecideArgs& args);
 int precision_command(const PrecisionArgs& args);
 int compression_command(const CompressionArgs& args);

@@ -58,10 +58,6 @@ void print_row(const std::string& scene, const std::string& rays, const RaySurve
   std::fflush(stdout);
 }
 
-const char* name_of(Verdict verdict) {
-  return verdict == Verdict::Lost ? "LOST A HIT" : verdict == Verdict::NearMiss ? "near miss" : "tie";
-}
-
 void print_changed(const std::string& scene, const CullingSurvey& survey) {
   constexpr std::size_t kListed = 20;
   const std::vector<ChangedHit>& changed = survey.rays.changed;
@@ -71,15 +67,10 @@ void print_changed(const std::string& scene, const CullingSurvey& survey) {
                "{}: {} {}: origin {:a} {:a} {:a} direction {:a} {:a} {:a} t [{:a}, {:a}]: without culling primitive {} "
                "at {:a}, "
                "with it {} at {:a}\n",
-               scene, to_string(survey.designs[c.contender]), name_of(c.verdict), c.ray.origin.x, c.ray.origin.y,
+               scene, to_string(survey.designs[c.contender]), to_string(c.verdict), c.ray.origin.x, c.ray.origin.y,
                c.ray.origin.z, c.ray.direction.x, c.ray.direction.y, c.ray.direction.z, c.ray.tmin, c.ray.tmax,
                c.without.primitive, c.without.t, static_cast<std::int32_t>(c.with.primitive), c.with.t);
   }
-}
-
-std::vector<std::string> ray_kinds(const std::string& list) {
-  if (list == "all") return {"primary", "diffuse", "shadow", "ao", "random"};
-  return {list};
 }
 
 /// What to trace of each scene, a kind of rays each, checked before the first scene is loaded.

@@ -81,10 +81,11 @@ class Surveyor {
   void judge(const RecordedTree& tree, Design design, PrecisionRun& run) const {
     const cull::MaskTester tester(design, recorded_.masks, design == Design::None ? nullptr : tree.masks.lut);
     const reference::Traversal traversal(tree.bvh, &tree.masks.masks, tester);
+    const HitJudge judge(scene_.mesh);
     for (std::size_t i = 0; i < sample_.rays.size(); ++i) {
       const intersect::Hit hit = traversal.trace(sample_.rays[i]);
       if (intersect::same_bits(hit, sample_.hits[i])) continue;
-      const Verdict verdict = judge_hits(scene_.mesh, sample_.rays[i], sample_.hits[i], hit);
+      const Verdict verdict = judge.judge(sample_.rays[i], sample_.hits[i], hit);
       ++(verdict == Verdict::Lost ? run.lost_hits : verdict == Verdict::NearMiss ? run.near_misses : run.ties);
     }
   }

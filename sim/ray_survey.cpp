@@ -34,8 +34,8 @@ void add(const ContenderSurvey& part, ContenderSurvey& sum) {
 class ChunkSurvey {
  public:
   ChunkSurvey(const std::vector<Contender>& contenders, const std::vector<reference::Traversal>& traversals,
-              const scene::Mesh& mesh, int repeats)
-      : contenders_(contenders), traversals_(traversals), mesh_(mesh) {
+              const HitJudge& judge, int repeats)
+      : contenders_(contenders), traversals_(traversals), judge_(judge) {
     result_.contenders.resize(contenders.size());
     for (std::size_t c = 0; c < contenders.size(); ++c)
       if (contenders[c].timed) result_.contenders[c].seconds.resize(static_cast<std::size_t>(repeats));
@@ -53,7 +53,7 @@ class ChunkSurvey {
       for (std::size_t i = 0; i < rays_.size(); ++i) {
         const Hit with = traversals_[c].trace(rays_[i], &steps);
         if (same_bits(with, without_[i])) continue;
-        const Verdict verdict = judge_hits(mesh_, rays_[i], without_[i], with);
+        const Verdict verdict = judge_.judge(rays_[i], without_[i], with);
         count(verdict, row);
         result_.changed.push_back({c, rays_[i], without_[i], with, verdict});
       }
@@ -79,7 +79,7 @@ class ChunkSurvey {
  private:
   const std::vector<Contender>& contenders_;
   const std::vector<reference::Traversal>& traversals_;
-  const scene::Mesh& mesh_;
+  const HitJudge& judge_;
   std::vector<Ray> rays_;
   std::vector<Hit> without_;
   RaySurvey result_;
@@ -103,12 +103,13 @@ RaySurvey survey_rays(const scene::Scene& scene, const accel::Bvh4& bvh, const s
   std::vector<reference::Traversal> traversals;
   for (const Contender& contender : contenders) traversals.emplace_back(bvh, contender.masks, *contender.tester);
   const traces::RayGenerator generator(scene, options.rays);
+  const HitJudge judge(scene.mesh);
 
-  RaySurvey survey = ChunkSurvey(contenders, traversals, scene.mesh, options.timed_repeats).result();
+  RaySurvey survey = ChunkSurvey(contenders, traversals, judge, options.timed_repeats).result();
   std::mutex mutex;
   std::uint64_t paths_done = 0;
   parallel_chunks(generator.paths(), kPathsPerChunk, options.threads, [&](std::size_t first, std::size_t last) {
-    ChunkSurvey chunk(contenders, traversals, scene.mesh, options.timed_repeats);
+    ChunkSurvey chunk(contenders, traversals, judge, options.timed_repeats);
     chunk.make_rays(generator, first, last);
     chunk.count_work();
     const std::size_t number = first / kPathsPerChunk;

@@ -104,6 +104,11 @@ cull::MaskOptions parse_masks(const SceneArgs& args) {
 
 }  // namespace
 
+std::vector<std::string> ray_kinds(const std::string& list) {
+  if (list == "all") return {"primary", "diffuse", "shadow", "ao", "random"};
+  return {list};
+}
+
 std::vector<cull::Design> parse_designs(const std::string& list) {
   static const std::vector<std::string> known{"none",  "ideal",      "mask-lut",   "bit-table",
                                               "dedup", "projection", "comparators"};

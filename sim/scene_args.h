@@ -11,6 +11,9 @@
 
 namespace ctu::sim {
 
+/// "all" or one kind of rays, as names of kinds.
+std::vector<std::string> ray_kinds(const std::string& list);
+
 /// "none,mask-lut" as designs; Error on an unknown one, naming the nearest.
 std::vector<cull::Design> parse_designs(const std::string& list);
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes the tables of docs/results.md between their marks, and the plots of docs/plots, from all scenes at hand.
+# Makes the tables of docs/results.md and docs/numerics.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper variants compression precision tables designs area; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper variants compression precision tables designs area numerics; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants compression precision tables designs area)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants compression precision tables designs area numerics)
 
 page=docs/results.md
 plots=docs/plots
@@ -312,10 +312,16 @@ area() {
   put area-stages
 }
 
+numerics() {
+  keep numerics "$program" metamorph --index "$index" --markdown --size 32x18 --selection top-summed --compress 256
+  local page=docs/numerics.md
+  put numerics
+}
+
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | variants | designs | tables | compression | precision | area) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, variants, designs, tables, compression, precision or area" >&2; exit 2 ;;
+    culling | auto | paper | variants | designs | tables | compression | precision | area | numerics) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, variants, designs, tables, compression, precision, area or numerics" >&2; exit 2 ;;
   esac
 done
 exit "$failed"

@@ -150,6 +150,22 @@ TEST_F(CommandTest, a_culling_survey_loses_no_hit) {
     EXPECT_NE(outcome.out.find(kind), std::string::npos) << kind;
 }
 
+TEST_F(CommandTest, a_transformed_scene_keeps_its_answers_in_text_markdown_and_json) {
+  const std::string command = "metamorph 'gen:tetra?depth=2' --size 8x8 --designs comparators --checks powers,edges";
+  const Outcome text = ctusim(command + " --json changed.json");
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_NE(text.out.find("x 2^-40"), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("4 closed parts of 16 triangles"), std::string::npos) << text.out;
+  const json result = json::parse(read_text(folder_->path() / "changed.json"));
+  const json& scene = result["scenes"].at(0);
+  EXPECT_TRUE(scene["passed"]);
+  EXPECT_EQ(scene["transformations"].size(), 5u);
+  EXPECT_TRUE(scene["transformations"][1]["same_bits"]);
+  EXPECT_EQ(scene["edges"]["leaks"], 0);
+  const Outcome markdown = ctusim(command + " --markdown");
+  EXPECT_NE(markdown.out.find("x 2^-40; x 2^-1; x 2^7; x 2^40"), std::string::npos) << markdown.out;
+}
+
 TEST_F(CommandTest, a_slice_runs_as_a_trace_of_its_own) {
   ASSERT_EQ(ctusim("trace slice hair.ctut -o part.ctut --first 100 --rays 50").exit_code, 0);
   const Outcome outcome = ctusim("run part.ctut --json part.json");
@@ -326,6 +342,10 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("record gen:hair-ball -o x.ctut --threads -1", "--threads");
   expect_refused("record gen:hair-ball -o x.ctut --fov 500", "field of view");
   expect_refused("run hair.ctut --json no/such/folder/r.json", "no/such/folder");
+  expect_refused("metamorph gen:tetra --checks mirors", "mirrors");
+  expect_refused("metamorph gen:tetra --designs projektion", "projection");
+  expect_refused("metamorph gen:tetra --json no/such/folder/m.json", "no/such/folder");
+  expect_refused("metamorph", "SCENE");
   expect_refused("", "subcommand");
 }
 
