@@ -26,13 +26,13 @@ bool same_steps(const StepList& a, const StepList& b, std::size_t ray, Keys keys
 
 }  // namespace
 
-Answers ask(const reference::Traversal& traversal, const std::vector<Ray>& rays, int threads) {
+Answers ask(const reference::Traversal& traversal, const std::vector<Ray>& rays, int threads, Record record) {
   Answers answers;
   answers.hits.resize(rays.size());
-  answers.steps.resize((rays.size() + kRaysPerChunk - 1) / kRaysPerChunk);
+  if (record == Record::HitsAndSteps) answers.steps.resize((rays.size() + kRaysPerChunk - 1) / kRaysPerChunk);
   parallel_chunks(rays.size(), kRaysPerChunk, threads, [&](std::size_t first, std::size_t last) {
-    StepList& steps = answers.steps[first / kRaysPerChunk];
-    for (std::size_t i = first; i < last; ++i) answers.hits[i] = traversal.trace(rays[i], &steps);
+    StepList* const steps = record == Record::HitsAndSteps ? &answers.steps[first / kRaysPerChunk] : nullptr;
+    for (std::size_t i = first; i < last; ++i) answers.hits[i] = traversal.trace(rays[i], steps);
   });
   return answers;
 }

@@ -15,10 +15,12 @@ inline constexpr std::size_t kRaysPerChunk = 512;
 
 struct Answers {
   std::vector<intersect::Hit> hits;
-  std::vector<reference::StepList> steps;  ///< a chunk each
+  std::vector<reference::StepList> steps;  ///< a chunk each; none when they are not recorded
 };
 
-Answers ask(const reference::Traversal& traversal, const std::vector<intersect::Ray>& rays, int threads);
+enum class Record : bool { Hits, HitsAndSteps };
+
+Answers ask(const reference::Traversal& traversal, const std::vector<intersect::Ray>& rays, int threads, Record record);
 
 /// What each ray finds when every triangle is tested and the best kept; any-hit rays, too, have their nearest hit.
 std::vector<intersect::Hit> best_of_all_triangles(const accel::Bvh4& bvh, const std::vector<intersect::Ray>& rays,

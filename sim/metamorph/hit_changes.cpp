@@ -40,10 +40,10 @@ std::string words(const Hit& hit) {
   return found(hit) ? fmt::format("primitive {} at {:a}", hit.primitive, hit.t) : "nothing";
 }
 
-Asked ask_all(const World& world, std::vector<Ray> rays, int threads) {
+Asked ask_all(const World& world, std::vector<Ray> rays, int threads, Record record) {
   Asked asked{std::move(rays), {}, {}};
   for (std::size_t d = 0; d < world.designs(); ++d)
-    asked.answers.push_back(ask(world.traversal(d), asked.rays, threads));
+    asked.answers.push_back(ask(world.traversal(d), asked.rays, threads, record));
   asked.best = best_of_all_triangles(world.bvh(), asked.rays, threads);
   return asked;
 }

@@ -33,7 +33,7 @@ struct Asked {
   std::vector<Answers> answers;
   std::vector<intersect::Hit> best;  ///< of all triangles
 };
-Asked ask_all(const World& world, std::vector<intersect::Ray> rays, int threads);
+Asked ask_all(const World& world, std::vector<intersect::Ray> rays, int threads, Record record);
 
 /// The answers without culling are held against the best of all triangles (any-hit: whether there is one), those of the
 /// designs against the answers without culling, bit for bit.

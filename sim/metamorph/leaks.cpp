@@ -27,7 +27,7 @@ Leaks find_leaks(const scene::Mesh& mesh, const World& world, const std::vector<
   std::vector<intersect::Ray> rays;
   rays.reserve(aimed.size());
   for (const AimedRay& one : aimed) rays.push_back(one.ray);
-  const Asked asked = ask_all(world, rays, threads);
+  const Asked asked = ask_all(world, rays, threads, Record::Hits);
   const HitJudge judge(mesh);
   Leaks found;
   for (std::size_t i = 0; i < rays.size(); ++i) {

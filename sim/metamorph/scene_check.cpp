@@ -1,6 +1,7 @@
 #include "sim/metamorph/scene_check.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +19,9 @@ using cull::Design;
 using intersect::Hit;
 using intersect::Ray;
 
+constexpr double kCollapsing = 1e6;  // sizes of the scene
+constexpr std::size_t kMostVisits = 50'000'000, kLeastRays = 16;
+
 /// All checks of one scene. The scene as it is stays at hand: its rays and answers are what the others are held
 /// against.
 class SceneCheck {
@@ -27,7 +31,7 @@ class SceneCheck {
         options_(options),
         threads_(options.world.threads),
         world_(accel::build(scene.mesh, options.world.build), options.world),
-        asked_(ask_all(world_, scene_rays(scene, world_.bvh(), options.rays), threads_)),
+        asked_(ask_all(world_, scene_rays(scene, world_.bvh(), options.rays), threads_, Record::HitsAndSteps)),
         magnitudes_(magnitudes(scene.mesh, asked_.rays)) {
     report_.triangles = scene.mesh.triangles.size();
   }
@@ -52,13 +56,14 @@ class SceneCheck {
   }
 
   CheckRow transformed(const Transformation& t) {
-    CheckRow row{.name = t.name, .kind = t.kind, .rays = asked_.rays.size()};
+    CheckRow row{.name = t.name, .kind = t.kind};
     const scene::Mesh mesh = t(scene_.mesh);
     std::vector<Ray> rays;
-    rays.reserve(asked_.rays.size());
-    for (const Ray& ray : asked_.rays) rays.push_back(t(ray));
+    for (std::size_t i = 0; i < asked_.rays.size(); i += ray_stride(t)) rays.push_back(t(asked_.rays[i]));
+    row.rays = rays.size();
     const World world(accel::build(mesh, options_.world.build), options_.world);
-    const Asked asked = ask_all(world, std::move(rays), threads_);
+    const Asked asked =
+        ask_all(world, std::move(rays), threads_, t.kind == Kind::Power ? Record::HitsAndSteps : Record::Hits);
     row.changed = judge_hits(mesh, world, asked, tell_of(row));
     if (!t.is_exact()) return row;
 
@@ -70,6 +75,14 @@ class SceneCheck {
     else
       compare_carried(t, asked.rays, compared, row);
     return row;
+  }
+
+  /// Moved so far that a unit in the last place is a sizeable part of the scene, the scene falls onto a few points, and
+  /// a ray there meets a good part of all triangles: then only every nth ray is asked.
+  std::size_t ray_stride(const Transformation& t) const {
+    if (t.kind != Kind::Translation || std::fabs(t.offset.x) < kCollapsing * magnitudes_.size) return 1;
+    const std::size_t most = std::max(kLeastRays, kMostVisits / scene_.mesh.triangles.size());
+    return std::max<std::size_t>(1, asked_.rays.size() / most);
   }
 
   std::vector<bool> compared_rays(const Transformation& t, CheckRow& row) const {
@@ -100,7 +113,8 @@ class SceneCheck {
       const Design design = world.design(d);
       // A point on a border lies in the cell above it; mirrored, that is the other one.
       if (t.kind == Kind::Mirror && cull::reads_tables(design)) continue;
-      compare(t, design, answers_of(design), ask(world.traversal(d), rays, threads_), Keys::Ignored, compared, row);
+      compare(t, design, answers_of(design), ask(world.traversal(d), rays, threads_, Record::HitsAndSteps),
+              Keys::Ignored, compared, row);
     }
   }
 
@@ -132,7 +146,7 @@ class SceneCheck {
       from.push_back(hit.primitive);
     }
     row.rays = rays.size();
-    const Asked asked = ask_all(world_, std::move(rays), threads_);
+    const Asked asked = ask_all(world_, std::move(rays), threads_, Record::Hits);
     row.changed = judge_hits(scene_.mesh, world_, asked, tell_of(row));
     const WayBack way = judge_way_back(scene_.mesh, world_, asked, from, tell_of(row));
     row.changed.lost += way.lost;

@@ -171,7 +171,7 @@ TEST(Metamorph, a_box_too_small_by_a_thousandth_leaks_and_loses_hits) {
 
   std::vector<intersect::Ray> rays;
   for (const AimedRay& one : sphere.aimed.rays) rays.push_back(one.ray);
-  const Asked asked = ask_all(world, rays, 2);
+  const Asked asked = ask_all(world, rays, 2, Record::HitsAndSteps);
   EXPECT_GT(judge_hits(sphere.mesh, world, asked, [](const std::string&) {}).lost, 0u);
 }
 
@@ -193,12 +193,12 @@ TEST(Metamorph, an_emptied_mask_changes_event_sequences_and_one_unit_of_a_box_th
   std::vector<intersect::Ray> rays;
   for (const AimedRay& one : sphere.aimed.rays) rays.push_back(one.ray);
   const std::vector<bool> all(rays.size(), true);
-  const Asked asked = ask_all(world, rays, 2);
+  const Asked asked = ask_all(world, rays, 2, Record::HitsAndSteps);
 
   cull::ObjectMasks masks = world.masks();
   masks.bits[0] = 0;
   const World fewer(sphere.bvh, std::move(masks), sphere.options);
-  const Asked changed = ask_all(fewer, rays, 2);
+  const Asked changed = ask_all(fewer, rays, 2, Record::HitsAndSteps);
   EXPECT_EQ(different_steps(asked.answers[0], changed.answers[0], Keys::Compared, all), 0u);
   EXPECT_GT(different_steps(asked.answers[1], changed.answers[1], Keys::Compared, all), 0u);
   EXPECT_EQ(different_steps(asked.answers[1], changed.answers[1], Keys::Compared, std::vector<bool>(rays.size())), 0u);
@@ -220,7 +220,7 @@ TEST(Metamorph, rays_reversed_that_lose_their_triangle_are_told) {
     back.push_back(reversed(one.ray, hit.t));
     from.push_back(hit.primitive);
   }
-  Asked asked = ask_all(world, back, 2);
+  Asked asked = ask_all(world, back, 2, Record::Hits);
   EXPECT_EQ(judge_way_back(sphere.mesh, world, asked, from, tell).lost, 0u);
   for (intersect::Hit& hit : asked.answers[1].hits) hit = {};
   std::size_t told = 0;
