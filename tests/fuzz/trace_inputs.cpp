@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <cstring>
 #include <vector>
@@ -163,9 +164,14 @@ struct Change {
 };
 static_assert(sizeof(Change) == 8);
 
+/// Throws Error when the index was changed and gives no element of a column.
 std::size_t width_of(const Parts::Chunk& chunk) {
   const unsigned long long bytes = ZSTD_getFrameContentSize(chunk.frame.data(), chunk.frame.size());
-  return chunk.entry.elements == 0 ? 1 : static_cast<std::size_t>(bytes / chunk.entry.elements);
+  if (chunk.entry.elements == 0) return 1;
+  const unsigned long long width = bytes / chunk.entry.elements;
+  if (width * chunk.entry.elements != bytes || width == 0 || width > 8 || !std::has_single_bit(width))
+    throw Error("index", "does not describe its column", "");
+  return static_cast<std::size_t>(width);
 }
 
 /// The column's bytes, element after element, given to `edit`; `edit` may change their number.
