@@ -145,6 +145,7 @@ std::string record_base(int number) {
   options.masks.entries = number == 1 ? cull::kMinEntries : 0;
   options.with_masks = number != 3;
   options.strip_full = number == 1;
+  options.layout.box_bits = number == 4 ? 12 : accel::kFullBoxBits;
   if (!options.with_masks) options.designs = {Design::None};
   traces::record(scene::load(number == 2 ? "gen:tilted-quads?quads=20&size=0.6" : "gen:hair-ball?strands=6&segments=3"),
                  options, path);
@@ -152,8 +153,8 @@ std::string record_base(int number) {
 }
 
 const Parts& base(std::size_t number) {
-  static const std::array<Parts, 4> parts = {Parts(record_base(0)), Parts(record_base(1)), Parts(record_base(2)),
-                                             Parts(record_base(3))};
+  static const std::array<Parts, 5> parts = {Parts(record_base(0)), Parts(record_base(1)), Parts(record_base(2)),
+                                             Parts(record_base(3)), Parts(record_base(4))};
   return parts[number % parts.size()];
 }
 
