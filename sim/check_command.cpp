@@ -132,6 +132,10 @@ CampaignOptions campaign_options(const CheckArgs& args) {
 
 /// R, R_ray and L that all forms have; 4, R and unlimited where not given.
 int compare(const CheckArgs& args, const CampaignOptions& options) {
+  if (args.engine != "reference" || !args.designs.empty() || !args.failures.empty())
+    throw Error("--compare",
+                "sets forms of the node test in software side by side; it has no engine, design or failures",
+                "leave out --engine, --design and --failures");
   cull::MaskOptions masks;
   const check::SetupChoice choice = setup_choice(args);
   masks.resolution = choice.resolution.value_or(masks.resolution);
@@ -143,6 +147,8 @@ int compare(const CheckArgs& args, const CampaignOptions& options) {
     result = check::compare_forms(options, masks, [&](std::uint64_t cases) { bar.update(cases); });
   }
   check::print_comparison(options, result);
+  const check::ReportHead head{args.engine, args.command, options.seed, options.threads};
+  if (!args.json_path.empty()) check::write_comparison(head, options, result, args.json_path);
   return result.safe_forms_lost() == 0 ? 0 : 1;
 }
 

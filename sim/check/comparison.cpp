@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,9 @@
 
 namespace ctu::sim::check {
 namespace {
+
+/// Whose culling and work the table shows: plain, the widest padding of times, and the safe ones.
+constexpr std::size_t kShownForms[] = {0, 2, 4, 5};
 
 constexpr Padding kPaddings[] = {{}, {1e-6f, 0}, {1e-4f, 0}, {0, 1e-4f}};
 static_assert(std::size(kPaddings) == kNaiveForms);
@@ -96,16 +100,15 @@ ComparisonRow compare_scene(const CheckScene& scene, const cull::MaskTester& com
   return row;
 }
 
-double per_million(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : 1e6 * static_cast<double>(part) / static_cast<double>(whole);
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-void print_row(std::string_view name, const ComparisonRow& row) {
-  fmt::print("{:<24}{:>12}", name, row.exact_hits);
-  for (const FormCounts& form : row.forms) fmt::print("{:>13.1f}", per_million(form.lost, row.exact_hits));
-  for (const FormCounts& form : row.forms) fmt::print("{:>8.2f}", 100e-6 * per_million(form.culled, form.box_hits));
-  for (const FormCounts& form : row.forms)
-    fmt::print("{:>8.2f}", static_cast<double>(form.tests) / static_cast<double>(std::max<std::uint64_t>(row.rays, 1)));
+void print_row(std::string_view name, const std::string& exact_hits, const FormFigures& figures) {
+  fmt::print("{:<24}{:>11}", name, exact_hits);
+  for (const double lost : figures.lost_per_million) fmt::print("{:>11.1f}", lost);
+  for (const std::size_t form : kShownForms) fmt::print("{:>8.2f}", 100 * figures.culled_share[form]);
+  for (const std::size_t form : kShownForms) fmt::print("{:>8.2f}", figures.tests_per_ray[form]);
   fmt::print("\n");
 }
 
@@ -157,22 +160,46 @@ ComparisonResult compare_forms(const CampaignOptions& options, const cull::MaskO
   }
 }
 
-void print_comparison(const CampaignOptions& options, const ComparisonResult& result) {
-  fmt::print("\n{:<24}{:>12}", "", "exact hits");
-  fmt::print("{:^78}{:^48}{:^48}\n{:36}", "hits lost per million exact hits", "culled, % of box hits",
-             "tests a ray (nodes, triangles)", "");
-  for (const std::string_view form : kForms)
-    fmt::print("{:>13}", form.substr(0, form.find(' ')) == "plain" ? "plain" : form);
-  for (int group = 0; group < 2; ++group)
-    for (const char* form : {"plain", "t 1e-6", "t 1e-4", "b 1e-4", "tables", "compar."}) fmt::print("{:>8}", form);
-  fmt::print("\n");
-  ComparisonRow total;
-  for (std::size_t i = 0; i < result.by_generator.size(); ++i) {
-    print_row(generators()[options.generators[i]].name, result.by_generator[i]);
-    total += result.by_generator[i];
+FormFigures figures_of(const ComparisonRow& row) {
+  FormFigures figures;
+  for (std::size_t i = 0; i < kForms.size(); ++i) {
+    figures.lost_per_million[i] = 1e6 * ratio(row.forms[i].lost, row.exact_hits);
+    figures.culled_share[i] = ratio(row.forms[i].culled, row.forms[i].box_hits);
+    figures.tests_per_ray[i] = ratio(row.forms[i].tests, row.rays);
   }
-  print_row("all", total);
-  fmt::print("{} cases in {:.1f} s\n", total.rays, result.seconds);
+  return figures;
+}
+
+FormFigures mean_figures(const ComparisonResult& result) {
+  FormFigures mean;
+  const double weight = 1.0 / static_cast<double>(result.by_generator.size());
+  for (const ComparisonRow& row : result.by_generator) {
+    const FormFigures figures = figures_of(row);
+    for (std::size_t i = 0; i < kForms.size(); ++i) {
+      mean.lost_per_million[i] += weight * figures.lost_per_million[i];
+      mean.culled_share[i] += weight * figures.culled_share[i];
+      mean.tests_per_ray[i] += weight * figures.tests_per_ray[i];
+    }
+  }
+  return mean;
+}
+
+void print_comparison(const CampaignOptions& options, const ComparisonResult& result) {
+  fmt::print("{:35}{:^66}{:^32}{:^32}\n{:<24}{:>11}", "", "hits lost per million exact hits", "culled, % of box hits",
+             "nodes and triangles a ray", "generator", "exact hits");
+  for (const std::string_view form : kForms) fmt::print("{:>11}", form);
+  for (int group = 0; group < 2; ++group)
+    for (const std::size_t form : kShownForms) fmt::print("{:>8}", kForms[form]);
+  fmt::print("\n");
+  std::uint64_t cases = 0, exact_hits = 0;
+  for (std::size_t i = 0; i < result.by_generator.size(); ++i) {
+    const ComparisonRow& row = result.by_generator[i];
+    print_row(generators()[options.generators[i]].name, std::to_string(row.exact_hits), figures_of(row));
+    cases += row.rays;
+    exact_hits += row.exact_hits;
+  }
+  print_row("mean of generators", "", mean_figures(result));
+  fmt::print("{} cases, {} exact hits in {:.1f} s on {} threads\n", cases, exact_hits, result.seconds, options.threads);
 }
 
 }  // namespace ctu::sim::check

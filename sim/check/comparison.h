@@ -12,9 +12,10 @@
 
 namespace ctu::sim::check {
 
-/// The forms compared: as printed, three ways to pad it, and the unit's two ways to be sure.
-inline constexpr std::array<std::string_view, 6> kForms = {"plain binary32", "times +1e-6", "times +1e-4",
-                                                           "box +1e-4",      "safe tables", "comparators"};
+/// The forms compared: Algorithm 1 in plain binary32, its entry and exit times padded by a part of themselves, its
+/// boxes by a part of their longest side; and the unit's two ways to be sure, tables by located cells and comparators.
+inline constexpr std::array<std::string_view, 6> kForms = {"plain",     "t +1e-6", "t +1e-4",
+                                                           "box +1e-4", "tables",  "comp."};
 
 inline constexpr std::size_t kNaiveForms = 4;  ///< the first ones
 
@@ -43,6 +44,16 @@ struct ComparisonResult {
 /// generators have made the same number of scenes when it ends.
 ComparisonResult compare_forms(const CampaignOptions& options, const cull::MaskOptions& masks,
                                const std::function<void(std::uint64_t cases)>& progress = {});
+
+/// By form, what the table shows of a generator.
+struct FormFigures {
+  std::array<double, kForms.size()> lost_per_million{};  ///< of exact hits
+  std::array<double, kForms.size()> culled_share{};      ///< of box hits
+  std::array<double, kForms.size()> tests_per_ray{};
+};
+FormFigures figures_of(const ComparisonRow& row);
+/// Every generator weighs the same.
+FormFigures mean_figures(const ComparisonResult& result);
 
 void print_comparison(const CampaignOptions& options, const ComparisonResult& result);
 

@@ -53,6 +53,21 @@ std::string_view name_at(const CampaignOptions& options, std::size_t i) {
   return generators()[options.generators[i]].name;
 }
 
+void add_head(Json& json, const ReportHead& head, double seconds) {
+  json["tool"] = std::string("ctusim ") + tool_version();
+  json["command"] = head.command;
+  json["engine"] = head.engine;
+  json["seed"] = head.seed;
+  json["threads"] = head.threads;
+  json["seconds"] = seconds;
+}
+
+void save(const Json& json, const std::string& path) {
+  std::ofstream file(path);
+  file << json.dump(2) << '\n';
+  if (!file.flush()) throw Error(path, "cannot be written", "choose a path that can");
+}
+
 }  // namespace
 
 void print_report(const ReportHead& head, const CampaignOptions& options, const CampaignResult& result) {
@@ -77,12 +92,7 @@ void write_report(const ReportHead& head, const CampaignOptions& options, const 
   const Tally total = result.total();
   Json json = json_of("total", total);
   json.erase("generator");
-  json["tool"] = std::string("ctusim ") + tool_version();
-  json["command"] = head.command;
-  json["engine"] = head.engine;
-  json["seed"] = head.seed;
-  json["threads"] = head.threads;
-  json["seconds"] = result.seconds;
+  add_head(json, head, result.seconds);
   json["cases_per_second"] = static_cast<double>(total.rays) / result.seconds;
   Json& rows = json["generators"] = Json::array();
   for (std::size_t i = 0; i < options.generators.size(); ++i)
@@ -94,9 +104,28 @@ void write_report(const ReportHead& head, const CampaignOptions& options, const 
                         {"ray", failure.ray},
                         {"setup", failure.setup},
                         {"what", failure.what}});
-  std::ofstream file(path);
-  file << json.dump(2) << '\n';
-  if (!file.flush()) throw Error(path, "cannot be written", "choose a path that can");
+  save(json, path);
+}
+
+void write_comparison(const ReportHead& head, const CampaignOptions& options, const ComparisonResult& result,
+                      const std::string& path) {
+  Json json;
+  add_head(json, head, result.seconds);
+  Json& rows = json["generators"] = Json::array();
+  for (std::size_t i = 0; i < options.generators.size(); ++i) {
+    const ComparisonRow& row = result.by_generator[i];
+    Json forms;
+    for (std::size_t form = 0; form < kForms.size(); ++form)
+      forms[std::string(kForms[form])] = {{"lost", row.forms[form].lost},
+                                          {"box_hits", row.forms[form].box_hits},
+                                          {"culled", row.forms[form].culled},
+                                          {"tests", row.forms[form].tests}};
+    rows.push_back({{"generator", name_at(options, i)},
+                    {"cases", row.rays},
+                    {"exact_hits", row.exact_hits},
+                    {"forms", std::move(forms)}});
+  }
+  save(json, path);
 }
 
 }  // namespace ctu::sim::check

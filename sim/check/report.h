@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sim/check/campaign.h"
+#include "sim/check/comparison.h"
 
 namespace ctu::sim::check {
 
@@ -19,5 +20,8 @@ void print_report(const ReportHead& head, const CampaignOptions& options, const 
 /// Throws Error when the file cannot be written.
 void write_report(const ReportHead& head, const CampaignOptions& options, const CampaignResult& result,
                   const std::string& path);
+
+void write_comparison(const ReportHead& head, const CampaignOptions& options, const ComparisonResult& result,
+                      const std::string& path);
 
 }  // namespace ctu::sim::check
