@@ -1,10 +1,12 @@
 // box_test: the ray against the boxes of a node's four lanes, with outward rounding.
 //
-//   latency LATENCY (docs/unit.md: 4 subtract, 4 multiply, 3 compare: 11), initiation interval 1
+//   latency LATENCY (docs/unit.md: 4 subtract, 4 multiply, 3 compare: 11), initiation interval 1; where BOX_BITS is
+//           below 32, DECODE_LATENCY (docs/unit.md: 5) in front of it, in the same rigid pipeline
 //   twin    model/pipeline/box_test.h; intersect::slab_test, without INNER slab_test_outer (model/intersect)
 //
 // Arithmetic: box_test_lane, four times. Any LATENCY from 1 is shared out in the proportion of those three. What the
-// ray is and what its best hit is do not change while the node is tested, so they are read once, with the token.
+// ray is and what its best hit is do not change while the node is tested, so they are read once: with the token, or when
+// its boxes are decoded (box_decode). Decoded boxes are handed on for cell_locate.
 //
 // Vectors by axis and lane hold lane l of axis a at [32 * (4 * a + l) +: 32], as the bytes of a node lie in memory
 // (model/accel/image.h); vectors of three hold axis x in the lowest 32 bits. Without INNER only t0, t1 and hits are
@@ -14,7 +16,10 @@
 module box_test #(
     parameter int SLOT_BITS = 5,
     parameter int LATENCY = 11,
-    parameter bit INNER = 1'b1  // 0: design none, no stage asks for the times by axis
+    parameter bit INNER = 1'b1,  // 0: design none, no stage asks for the times by axis
+    parameter int BOX_BITS = 32,  // of a coordinate of boxes_i: 32, or 16, 12, 8
+    parameter int DECODE_LATENCY = 5,
+    localparam int BOXES_BITS = BOX_BITS == 32 ? 768 : 128 + 24 * BOX_BITS
 ) (
     input  logic                                  clk_i,
     input  logic                                  rst_i,
@@ -24,7 +29,12 @@ module box_test #(
     input  logic                                  tested_ready_i,
     output logic                                  tested_push_o,
     output logic [SLOT_BITS+`CTU_NODE_FIELDS-1:0] tested_data_o,        // a node; survivors as hits, order and asked 0
-    // The context of the node popped: its ray, best hit and the boxes that node_fetch holds for it.
+    // The context of the node popped: the boxes that node_fetch holds for it. Full precision: lo, above it hi, bytes 0 ..
+    // 95; reduced: frame, above it planes, and the lanes without a child.
+    output logic [                 SLOT_BITS-1:0] boxes_slot_o,
+    input  logic [                BOXES_BITS-1:0] boxes_i,
+    input  logic [                           3:0] empty_i,
+    // The context of the node whose boxes are there: its ray and best hit.
     output logic [                 SLOT_BITS-1:0] ray_slot_o,
     input  logic [                          95:0] ray_origin_i,
     input  logic [                          95:0] ray_rcp_down_i,
@@ -33,7 +43,9 @@ module box_test #(
     input  logic [                           2:0] ray_negative_axes_i,
     input  logic [                          31:0] ray_tmin_i,
     input  logic [                          31:0] best_t_i,
-    input  logic [                         767:0] boxes_i,              // lo, above it hi: bytes 0 .. 95
+    // The same context: its boxes decoded, in the one cycle in which they are; never at full precision.
+    output logic                                  decoded_write_o,
+    output logic [                         767:0] decoded_boxes_o,
     // The context of the token pushed: where its ray meets the boxes.
     output logic                                  times_write_o,
     output logic [                 SLOT_BITS-1:0] times_slot_o,
@@ -50,12 +62,13 @@ module box_test #(
   localparam int MULTIPLY_LATENCY = LATENCY - COMPARE_LATENCY - SUBTRACT_LATENCY;
 
   wire unused_reference = &{1'b0, node_data_i[31:0]};  // node_fetch knows by the context which bytes they are
-  assign ray_slot_o = node_data_i[32+:SLOT_BITS];
+  assign boxes_slot_o = node_data_i[32+:SLOT_BITS];
+  localparam int IN_FRONT = BOX_BITS == 32 ? 0 : DECODE_LATENCY;  // cycles before the lanes
 
   logic can_enter, enable, empty, unused_start, unused_exit_valid;  // a token starts while it is popped
   assign node_pop_o = node_valid_i && can_enter;
   pipe_control #(
-      .LATENCY(LATENCY)
+      .LATENCY(IN_FRONT + LATENCY)
   ) control (
       .clk_i,
       .rst_i,
@@ -69,6 +82,46 @@ module box_test #(
       .exit_o(tested_push_o),
       .empty_o(empty)
   );
+
+  // Boxes, and the slot that comes with them.
+  logic [767:0] boxes;
+  generate
+    if (BOX_BITS == 32) begin : g_full_boxes
+      wire unused_empty = &{1'b0, empty_i};  // empty boxes say so themselves
+      assign ray_slot_o = boxes_slot_o;
+      assign boxes = boxes_i;
+      assign decoded_write_o = 1'b0;
+    end else begin : g_compact_boxes
+      pipe_row #(
+          .WIDTH(SLOT_BITS),
+          .DEPTH(DECODE_LATENCY)
+      ) row_decoded_slot (
+          .clk_i,
+          .enable_i(enable),
+          .data_i(boxes_slot_o),
+          .data_o(ray_slot_o)
+      );
+      box_decode #(
+          .BITS(BOX_BITS),
+          .LATENCY(DECODE_LATENCY)
+      ) decode (
+          .clk_i,
+          .enable_i(enable),
+          .origin_i(boxes_i[95:0]),
+          .exponents_i(boxes_i[127:96]),
+          .planes_i(boxes_i[BOXES_BITS-1:128]),
+          .empty_i,
+          .boxes_o(boxes)
+      );
+      logic [DECODE_LATENCY-1:0] decodes_q;  // where there is a node in the decoder
+      always_ff @(posedge clk_i) begin
+        if (rst_i) decodes_q <= '0;
+        else if (enable) decodes_q <= DECODE_LATENCY'({decodes_q, node_pop_o});
+      end
+      assign decoded_write_o = decodes_q[DECODE_LATENCY-1] && enable;
+    end
+  endgenerate
+  assign decoded_boxes_o = boxes;
 
   pipe_row #(
       .WIDTH(SLOT_BITS),
@@ -119,8 +172,8 @@ module box_test #(
 `else
         localparam int FROM = axis;
 `endif
-        assign lo[32*axis+:32] = boxes_i[32*(4*FROM+lane)+:32];
-        assign hi[32*axis+:32] = boxes_i[32*(12+4*FROM+lane)+:32];
+        assign lo[32*axis+:32] = boxes[32*(4*FROM+lane)+:32];
+        assign hi[32*axis+:32] = boxes[32*(12+4*FROM+lane)+:32];
         assign times_near_down_o[32*(4*axis+lane)+:32] = near_down[32*axis+:32];
         assign times_near_up_o[32*(4*axis+lane)+:32] = near_up[32*axis+:32];
         assign times_far_down_o[32*(4*axis+lane)+:32] = far_down[32*axis+:32];

@@ -30,6 +30,7 @@ module ctu_unit #(
     parameter int LEAF_PORTS = 1,
     parameter bit TABLE_CACHE = 1'b0,       // of designs that have tables only
     parameter int TABLE_PORTS = 1,
+    parameter int BOX_BITS = 32,            // of a coordinate of the image's boxes: 32, or 16, 12, 8
     parameter int STACK_ENTRIES = 16,       // of a context on chip, a power of two
     parameter bit HAS_SPILLS = 1'b1,
     parameter int MAX_SETS = 128,           // of each cache
@@ -39,6 +40,7 @@ module ctu_unit #(
     parameter int MAX_LEAF_BYTES = 160,
     parameter int RAY_SETUP_LATENCY = 20,
     parameter int MIN_RAY_INTERVAL = 3,
+    parameter int DECODE_LATENCY = 5,       // BOX_BITS below 32
     parameter int BOX_LATENCY = 11,
     parameter int LOCATE_LATENCY = 10,
     parameter int MASK_LATENCY = 2,
@@ -147,7 +149,8 @@ module ctu_unit #(
   localparam int MASK_BITS = !HAS_MASK_TEST ? 0 : ENTRIES > 0 ? INDEX_BITS : CELLS;
   localparam int LANE_BITS = MASK_BITS == 0 ? 1 : MASK_BITS;
   localparam int LANE_BYTES = (MASK_BITS + 7) / 8;
-  localparam int NODE_BYTES = 112 + 4 * LANE_BYTES;
+  localparam int BOXES_BITS = BOX_BITS == 32 ? 768 : 128 + 24 * BOX_BITS;
+  localparam int NODE_BYTES = BOXES_BITS / 8 + 16 + 4 * LANE_BYTES;
   localparam int KEY_BITS = COMPARATORS != 0 ? CELLS : 31;
   localparam int FETCHED_BITS = TABLE_CACHE ? `CTU_FETCHED_BITS(DESIGN, R, ENTRIES, ROWS) : 1;
 
@@ -202,7 +205,7 @@ module ctu_unit #(
   `CTU_LINK(memory_to_leaf, `CTU_MEMORY_TO_LEAF, RESPONSE)
   // Rays by context. What the host gives is written as ray_queue takes a ray, what it computes as the ray leaves it. Read
   // by box_test, cell_locate, triangle_test and hit_update.
-  logic [SLOT_BITS-1:0] box_slot, locate_slot, triangle_ray_slot, hit_slot;
+  logic [SLOT_BITS-1:0] boxes_slot, box_slot, locate_slot, triangle_ray_slot, hit_slot;
 
   localparam int ORIGIN = 0;
   localparam int TMIN = 96;
@@ -358,11 +361,11 @@ module ctu_unit #(
   localparam bit FETCHES_BY_INDEX = TABLE_CACHE && ENTRIES > 0;
   localparam int NODE_READERS = FETCHES_BY_INDEX ? 5 : HAS_MASK_TEST ? 4 : 2;
   logic [NODE_READERS*SLOT_BITS-1:0] node_slot;
-  logic [NODE_READERS*768-1:0] node_boxes;
+  logic [NODE_READERS*BOXES_BITS-1:0] node_boxes;
   logic [NODE_READERS*128-1:0] node_children;
   logic [NODE_READERS*4*LANE_BITS-1:0] node_masks;
   logic [NODE_READERS*4-1:0] node_full;
-  assign node_slot[0+:2*SLOT_BITS] = {stack_slot, box_slot};
+  assign node_slot[0+:2*SLOT_BITS] = {stack_slot, boxes_slot};
   node_fetch #(
       .SLOT_BITS(SLOT_BITS),
       .ADDRESS_BITS(ADDRESS_BITS),
@@ -374,6 +377,7 @@ module ctu_unit #(
       .MAX_HIT_LATENCY(MAX_HIT_LATENCY),
       .MASK_BITS(MASK_BITS),
       .MAX_STRIDE(NODE_BYTES),
+      .BOX_BITS(BOX_BITS),
       .READ_PORTS(NODE_READERS)
   ) node_fetch_stage (
       .clk_i,
@@ -408,12 +412,21 @@ module ctu_unit #(
       .node_full_o(node_full)
   );
 
-  logic tested_push, tested_ready;
+  logic tested_push, tested_ready, decoded_write;
+  logic [767:0] decoded_written;
+  logic [3:0] box_empty;
+  generate
+    for (genvar lane = 0; lane < 4; lane++) begin : g_empty
+      assign box_empty[lane] = node_children[32*lane+:32] == 32'hffffffff;
+    end
+  endgenerate
   logic [NODE-1:0] tested;
   box_test #(
       .SLOT_BITS(SLOT_BITS),
       .LATENCY(BOX_LATENCY),
-      .INNER(HAS_MASK_TEST)
+      .INNER(HAS_MASK_TEST),
+      .BOX_BITS(BOX_BITS),
+      .DECODE_LATENCY(DECODE_LATENCY)
   ) box_test_stage (
       .clk_i,
       .rst_i,
@@ -423,6 +436,9 @@ module ctu_unit #(
       .tested_ready_i(tested_ready),
       .tested_push_o(tested_push),
       .tested_data_o(tested),
+      .boxes_slot_o(boxes_slot),
+      .boxes_i(node_boxes[0+:BOXES_BITS]),
+      .empty_i(box_empty),
       .ray_slot_o(box_slot),
       .ray_origin_i(box_ray[ORIGIN+:96]),
       .ray_rcp_down_i(box_setup[RCP_DOWN+:96]),
@@ -431,7 +447,8 @@ module ctu_unit #(
       .ray_negative_axes_i(box_ray[NEGATIVE_AXES+:3]),
       .ray_tmin_i(box_ray[TMIN+:32]),
       .best_t_i(box_best[96+:32]),
-      .boxes_i(node_boxes[0+:768]),
+      .decoded_write_o(decoded_write),
+      .decoded_boxes_o(decoded_written),
       .times_write_o(times_write),
       .times_slot_o(times_write_slot),
       .times_near_down_o(near_down_written),
@@ -476,6 +493,25 @@ module ctu_unit #(
       // What is located goes to mask_test, or to table_fetch first.
       logic located_ready, located_push, fetched_valid, fetched_pop;
       logic [NODE-1:0] located, fetched;
+
+      // Boxes for cell_locate: as node_fetch holds them, or as they were decoded.
+      logic [767:0] locate_boxes;
+      if (BOX_BITS == 32) begin : g_full_boxes
+        assign locate_boxes = node_boxes[2*768+:768];
+      end else begin : g_compact_boxes
+        context_file #(
+            .WIDTH(768),
+            .SLOT_BITS(SLOT_BITS)
+        ) decoded_boxes (
+            .clk_i,
+            .write_i(decoded_write),
+            .write_slot_i(box_slot),
+            .write_data_i(decoded_written),
+            .read_slot_i(locate_slot),
+            .read_data_o(locate_boxes)
+        );
+      end
+
       logic [SLOT_BITS-1:0] key_slot, mask_slot, key_write_slot;
       logic [UNITS-1:0] key_write;
       logic [2*UNITS-1:0] key_lane;
@@ -504,7 +540,7 @@ module ctu_unit #(
           .times_far_up_i(far_up),
           .times_t0_i(locate_t0),
           .times_t1_i(t1),
-          .boxes_i(node_boxes[2*768+:768]),
+          .boxes_i(locate_boxes),
           .full_lanes_i(node_full[8+:4]),
           .ray_origin_i(locate_ray[ORIGIN+:96]),
           .ray_zero_axes_i(locate_ray[ZERO_AXES+:3]),

@@ -1,7 +1,8 @@
 // node_fetch: brings the bytes of a node, [address, + stride), through node_cache, and keeps them by context.
 //
 //   latency and interval as line_fetch
-//   twin    model/pipeline/node_fetch.h; addresses as UnitImage::node_bytes, layout of a node as model/accel/image.h
+//   twin    model/pipeline/node_fetch.h; addresses as UnitImage::node_bytes, layout of a node as model/accel/image.h, of
+//           BOX_BITS below 32 as model/accel/compact_node.h
 //   stated  docs/unit.md
 //
 // A node is put in order when it leaves: it can be read from the next cycle on, until its context's next one leaves.
@@ -18,7 +19,9 @@ module node_fetch #(
     parameter int MAX_HIT_LATENCY = 4,
     parameter int MASK_BITS = 8,       // of a lane's mask in the image, or its whole bytes; 0: no masks
     parameter int MAX_STRIDE = 116,    // bytes
+    parameter int BOX_BITS = 32,       // of a coordinate in the image: 32, or 16, 12, 8
     parameter int READ_PORTS = 1,      // stages that read nodes
+    localparam int BOXES_BITS = BOX_BITS == 32 ? 768 : 128 + 24 * BOX_BITS,
     localparam int SET_BITS = MAX_SETS == 1 ? 1 : $clog2(MAX_SETS),
     localparam int LANE_BITS = MASK_BITS == 0 ? 1 : MASK_BITS
 ) (
@@ -54,14 +57,17 @@ module node_fetch #(
 
     // The nodes of contexts, a slot for each port.
     input  logic [  READ_PORTS*SLOT_BITS-1:0] node_slot_i,
-    output logic [        READ_PORTS*768-1:0] node_boxes_o,     // lo.x of lane 0 lowest, then the other lanes, lo.y ..
+    // Lo.x of lane 0 lowest, then the other lanes, lo.y ..; of BOX_BITS below 32 above the frame: origin x, y, z lowest,
+    // then the exponents.
+    output logic [ READ_PORTS*BOXES_BITS-1:0] node_boxes_o,
     output logic [        READ_PORTS*128-1:0] node_children_o,  // references, lane 0 lowest
     output logic [READ_PORTS*4*LANE_BITS-1:0] node_masks_o,     // lane 0 lowest; 0 without masks
     output logic [          READ_PORTS*4-1:0] node_full_o       // bit lane: its mask is full
 );
   localparam int SLOTS = 1 << SLOT_BITS;
   localparam int MASK_WORDS = (MASK_BITS + 7) / 8;  // of all four lanes, a byte of each a word
-  localparam int NODE_WORDS = 28 + MASK_WORDS;
+  localparam int BODY_WORDS = BOXES_BITS / 32 + 4;  // boxes and children
+  localparam int NODE_WORDS = BODY_WORDS + MASK_WORDS;
   localparam int MASKS_BITS = 4 * LANE_BITS;
 
   // Where the node lies.
@@ -132,18 +138,27 @@ module node_fetch #(
       wire done_bare = done_reference[30:0] >= masked_nodes_i;
       wire unused_padding = &{1'b0, node};  // indices need not fill their bytes
       for (genvar lane = 0; lane < 4; lane++) begin : g_lane
-        wire [LANE_BITS-1:0] mask = done_bare ? full_mask_i : node[896+8*MASK_WORDS*lane+:LANE_BITS];
+        wire [LANE_BITS-1:0] mask = done_bare ? full_mask_i : node[32*BODY_WORDS+8*MASK_WORDS*lane+:LANE_BITS];
         assign masks[LANE_BITS*lane+:LANE_BITS] = mask;
         assign full[lane] = mask == full_mask_i;
       end
     end
   endgenerate
-  logic [899+MASKS_BITS:0] nodes_q[SLOTS];
-  always_ff @(posedge clk_i) if (done_push_o) nodes_q[done_slot] <= {full, masks, node[895:0]};
+  logic [BOXES_BITS-1:0] boxes;
+  logic [127:0] children;
+  generate
+    if (BOX_BITS == 32) begin : g_full_boxes
+      assign {children, boxes} = node[895:0];
+    end else begin : g_compact_boxes  // children lie between frame and planes
+      assign {boxes[BOXES_BITS-1:128], children, boxes[127:0]} = node[32*BODY_WORDS-1:0];
+    end
+  endgenerate
+  logic [BOXES_BITS+131+MASKS_BITS:0] nodes_q[SLOTS];
+  always_ff @(posedge clk_i) if (done_push_o) nodes_q[done_slot] <= {full, masks, children, boxes};
   generate
     for (genvar port = 0; port < READ_PORTS; port++) begin : g_port
       assign {node_full_o[4*port+:4], node_masks_o[MASKS_BITS*port+:MASKS_BITS], node_children_o[128*port+:128],
-              node_boxes_o[768*port+:768]} = nodes_q[node_slot_i[SLOT_BITS*port+:SLOT_BITS]];
+              node_boxes_o[BOXES_BITS*port+:BOXES_BITS]} = nodes_q[node_slot_i[SLOT_BITS*port+:SLOT_BITS]];
     end
   endgenerate
 endmodule

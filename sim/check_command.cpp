@@ -59,6 +59,8 @@ check::SetupChoice setup_choice(const CheckArgs& args) {
   if (args.resolution != 0) choice.resolution = args.resolution;
   if (args.ray_resolution != 0) choice.ray_resolution = args.ray_resolution;
   if (!args.levels.empty()) choice.levels = parse_levels(args.levels);
+  require_box_bits(args.box_bits);
+  choice.box_bits = args.box_bits;
   check::validate(choice);
   return choice;
 }
@@ -77,6 +79,7 @@ std::string remake_command(const CheckArgs& args, std::uint64_t seed, const chec
   if (args.resolution != 0) command += fmt::format(" --r {}", args.resolution);
   if (args.ray_resolution != 0) command += fmt::format(" --r-ray {}", args.ray_resolution);
   if (!args.levels.empty()) command += " --l " + args.levels;
+  if (args.box_bits != accel::kFullBoxBits) command += fmt::format(" --box-bits {}", args.box_bits);
   return command;
 }
 

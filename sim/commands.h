@@ -163,6 +163,7 @@ struct CheckArgs {
   std::string designs;                     ///< list; empty: all that the engine has
   int resolution = 0, ray_resolution = 0;  ///< 0: drawn for each scene
   std::string levels;                      ///< empty: drawn
+  std::uint32_t box_bits = 32;             ///< of a coordinate of boxes
   std::string budget = "60s";
   std::uint64_t seed = 0;              ///< 0: a fresh one
   std::optional<std::uint64_t> scene;  ///< only this one of each generator

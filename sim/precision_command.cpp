@@ -102,15 +102,17 @@ std::string plot_script(const std::vector<SceneSurvey>& scenes) {
   for (; rows < runs.size() && runs[rows].box_bits == runs.front().box_bits; ++rows)
     designs += fmt::format("{}{}", rows == 0 ? "" : " ", to_string(runs[rows].design));
   std::string text = fmt::format(R"(set datafile separator ','
+set datafile missing NaN
 set terminal svg noenhanced size 1200,{} font 'sans,13' background 'white'
 set output 'precision.svg'
 scenes = '{}'
 designs = '{}'
-set multiplot layout {},3 margins 0.07,0.84,0.08,0.90 spacing 0.07,0.12 \
+set multiplot layout {},3 margins 0.06,0.84,0.07,0.90 spacing 0.07,0.12 \
   title 'Bits of a coordinate of the boxes: error and cost, relative to {} bits' font ',16'
 )",
                                  120 + 260 * rows, names, designs, rows, runs.front().box_bits);
   text += R"(set grid ytics lc rgb '#dddddd'
+set xlabel 'bits'
 set logscale x 2
 set xrange [36:7]
 set xtics ('32' 32, '16' 16, '12' 12, '8' 8)

@@ -268,11 +268,11 @@ precision_area() {  # BITS
 precision() {
   local scenes=(gen:hair-ball gen:foliage) name bits
   for name in bunny straight-hair sponza kitchen; do if listed "$name"; then scenes+=("$name"); fi; done
-  keep precision "$program" precision --index "$index" --markdown --size 160x90 --rays diffuse --out "$scratch/precision" \
+  keep precision "$program" precision --index "$index" --markdown --size 160x90 --rays diffuse --out "$scratch/precision-plot" \
     "${scenes[@]}"
   put precision
   mkdir -p "$plots"
-  cp "$scratch/precision/precision.svg" "$plots"
+  cp "$scratch/precision-plot/precision.svg" "$plots"
   {
     echo "| bits | box_test: gate equivalents | flip-flops | depth | node_fetch: gate equivalents | memory bits | context files: memory bits | the three: gate equivalents | memory bits |"
     echo "| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"

@@ -1,6 +1,7 @@
 #include "sim/check/check_scene.h"
 
 #include "model/accel/build.h"
+#include "model/accel/quantize.h"
 
 namespace ctu::sim::check {
 
@@ -18,6 +19,7 @@ CheckScene make_scene(std::uint64_t seed, SceneNumber number, const DrawSetup& d
   accel::BuildOptions build;
   build.max_leaf_triangles = scene.setup.leaf_triangles;
   scene.bvh = accel::build(scene.hard.mesh, build);
+  if (scene.setup.box_bits != accel::kFullBoxBits) accel::quantize_boxes(scene.bvh, scene.setup.box_bits, 1);
   const cull::MaskOptions& masks = scene.setup.masks;
   if (scene.setup.design != cull::Design::None) scene.masks = traces::make_masks(scene.bvh, masks, 1);
   if (scene.masks.lut)

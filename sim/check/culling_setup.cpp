@@ -52,6 +52,7 @@ std::string to_string(const CullingSetup& setup) {
     text += masks.levels == cull::kUnlimitedLevels ? ", L inf" : fmt::format(", L {}", masks.levels);
     if (masks.entries != 0) text += fmt::format(", {} entries", masks.entries);
   }
+  if (setup.box_bits != accel::kFullBoxBits) text += fmt::format(", boxes of {} bits", setup.box_bits);
   return text + fmt::format(", leaves of {}", setup.leaf_triangles);
 }
 
@@ -80,6 +81,7 @@ CullingSetup draw_setup(const SetupChoice& choice, CaseRandom& random) {
   const bool compressed = random.chance(0.125);
   const int entries = random.one_of(kEntries), levels = random.one_of(kLevels);
   setup.leaf_triangles = random.one_of(kLeaves);
+  setup.box_bits = choice.box_bits;
   if (setup.design == Design::BitTable || (compressed && setup.design != Design::None)) setup.masks.entries = entries;
   setup.masks.levels = choice.levels.value_or(levels);
   draw_resolutions(choice, random, setup);

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "model/accel/box_frame.h"
 #include "model/cull/mask_test.h"
 #include "model/cull/options.h"
 #include "sim/check/case_random.h"
@@ -20,6 +21,7 @@ struct CullingSetup {
   cull::Design design = cull::Design::Projection;
   cull::MaskOptions masks;
   int leaf_triangles = 4;  ///< at most
+  std::uint32_t box_bits = accel::kFullBoxBits;
 };
 
 /// "mask-lut R 4, R_ray 6, L inf, leaves of 2".
@@ -28,6 +30,7 @@ std::string to_string(const CullingSetup& setup);
 struct SetupChoice {
   std::vector<cull::Design> designs;  ///< one of these; must not be empty
   std::optional<int> resolution{}, ray_resolution{}, levels{};
+  std::uint32_t box_bits = accel::kFullBoxBits;  ///< of a coordinate of boxes
 };
 
 /// All that decide a ray's answer in software.

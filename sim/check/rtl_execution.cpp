@@ -44,6 +44,7 @@ class RtlExecution : public Execution {
 };
 
 bool has_what_is_chosen(const cosim::RtlParameters& build, const SetupChoice& choice) {
+  if (build.box_bits != choice.box_bits) return false;
   if (std::find(choice.designs.begin(), choice.designs.end(), build.design) == choice.designs.end()) return false;
   if (build.design == cull::Design::None) return true;
   if (choice.resolution && *choice.resolution != build.resolution) return false;
@@ -59,7 +60,7 @@ DrawSetup draw_rtl_setup(const SetupChoice& choice) {
   for (const auto& unit : units_at_hand())
     if (has_what_is_chosen(unit->parameters(), choice)) builds.push_back(unit->parameters());
   if (builds.empty())
-    throw Error("--engine rtl", "no build of the RTL unit has this design, R and R_ray",
+    throw Error("--engine rtl", "no build of the RTL unit has this design, R, R_ray and bits of boxes",
                 "choose others, or add a build to sim/cosim/builds.cmake");
   return [builds, choice](CaseRandom& random) {
     const cosim::RtlParameters& build = builds[static_cast<std::size_t>(random.below(static_cast<int>(builds.size())))];

@@ -18,4 +18,7 @@ ctu_rtl_build(dedup-cached ALL DESIGN dedup ROWS reachable DISTINCT 226 TABLE_CA
 ctu_rtl_build(mask-lut-256 DESIGN mask-lut ENTRIES 256 BANKS 1)
 ctu_rtl_build(projection-r6 R 6 R_RAY 6 PROJECTION_TABLES 1 BANKS 8)
 ctu_rtl_build(projection-r-ray-8 R_RAY 8 UNITS 4 PORTS 4)
+ctu_rtl_build(boxes-8 BOX_BITS 8 SLOT_BITS 6)
+ctu_rtl_build(boxes-16 BOX_BITS 16 DECODE_LATENCY 1 DESIGN comparators ENTRIES 64 UNITS 2 LOCATE_LATENCY 8 BOX_LATENCY 4
+  NODE_PORTS 2)
 ctu_rtl_build(comparators-r6 DESIGN comparators R 6 R_RAY 6 ENTRIES 64 LOCATE_LATENCY 3)

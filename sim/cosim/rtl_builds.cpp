@@ -101,6 +101,8 @@ std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& confi
   if (3 * work.image.depth > config.stack.entries) misfits.same("spills", build.has_spills, true);
   misfits.at_least("ray_setup.interval", build.ray_interval, config.ray_setup.interval);
   misfits.same("ray_setup.latency", build.ray_setup_latency, config.ray_setup.latency);
+  misfits.same("bits of a coordinate", build.box_bits, work.image.layout.box_bits);
+  if (build.box_bits != 32) misfits.same("box_decode.latency", build.decode_latency, config.box_decode.latency);
   misfits.same("box_test.latency", build.box_latency, config.box_test.latency);
   misfits.same("child_sort.latency", build.sort_latency, config.child_sort.latency);
   misfits.same("triangle_test.latency", build.triangle_latency, config.triangle_test.latency);
@@ -128,6 +130,7 @@ pipeline::UnitConfig config_of(const RtlParameters& build) {
   config.table_cache.ports = build.table_ports;
   config.memory.line_bytes = build.line_bytes;
   config.ray_setup.latency = build.ray_setup_latency;
+  config.box_decode.latency = build.decode_latency;
   config.box_test.latency = build.box_latency;
   config.child_sort.latency = build.sort_latency;
   config.triangle_test.latency = build.triangle_latency;

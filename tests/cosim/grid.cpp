@@ -39,13 +39,13 @@ class Worlds {
  public:
   test::World& get(const std::string& trace, const RtlParameters& build, int rays) {
     const bool from_outside = build.rows == cull::TableRows::Reachable;  // only these have rows
-    auto& world = worlds_[fmt::format("{} {} {} {} {} {}", trace, static_cast<int>(build.design), build.resolution,
-                                      build.ray_resolution, build.entries, from_outside)];
+    auto& world = worlds_[fmt::format("{} {} {} {} {} {} {}", trace, static_cast<int>(build.design), build.resolution,
+                                      build.ray_resolution, build.entries, build.box_bits, from_outside)];
     if (world) return *world;
-    world = make_grid_world(trace, build.design, mask_options(build), rays);
+    world = make_grid_world(trace, build.design, mask_options(build), build.box_bits, rays);
     if (from_outside)
-      world =
-          std::make_unique<test::World>(world->tree(), build.design, rays_from_outside(*world), mask_options(build));
+      world = std::make_unique<test::World>(world->tree(), build.design, rays_from_outside(*world), mask_options(build),
+                                            build.box_bits);
     return *world;
   }
 

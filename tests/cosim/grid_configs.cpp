@@ -86,6 +86,10 @@ const std::vector<GridConfig>& grid_configs() {
       {"comparators-r6", "unit.contexts=18", 42},
       {"projection-r-ray-8", "", 43},
       {"projection-r-ray-8", "unit.contexts=6 scheduler.policy=round-robin", 44},
+      // Boxes of reduced precision.
+      {"boxes-8", "", 0},
+      {"boxes-8", "unit.contexts=64 scheduler.policy=round-robin", 50},
+      {"boxes-8", "unit.contexts=3 node_cache.bytes=256 node_cache.ways=1", 51},
   };
   return configs;
 }

@@ -130,7 +130,8 @@ std::vector<Ray> rays_of(const std::string& trace, RaySource& source, int count)
   return rays;
 }
 
-std::unique_ptr<test::World> make_hostile(cull::Design design, const cull::MaskOptions& masks, int count) {
+std::unique_ptr<test::World> make_hostile(cull::Design design, const cull::MaskOptions& masks, std::uint32_t box_bits,
+                                          int count) {
   const test::ClosedMesh cube = test::closed_cube(4);
   accel::Bvh4 tree = accel::build(cube.mesh, {});
   RaySource source(tree, cube.mesh);
@@ -140,20 +141,20 @@ std::unique_ptr<test::World> make_hostile(cull::Design design, const cull::MaskO
     rays.push_back(i % 2 == 0
                        ? hostile_ray(source, i / 2)
                        : aimed.next(test::kFamilies[static_cast<std::size_t>(i / 2) % std::size(test::kFamilies)]));
-  return std::make_unique<test::World>(std::move(tree), design, rays, masks);
+  return std::make_unique<test::World>(std::move(tree), design, rays, masks, box_bits);
 }
 
 }  // namespace
 
 std::unique_ptr<test::World> make_grid_world(const std::string& trace, cull::Design design,
-                                             const cull::MaskOptions& masks, int rays) {
-  if (trace == "hostile") return make_hostile(design, masks, rays);
+                                             const cull::MaskOptions& masks, std::uint32_t box_bits, int rays) {
+  if (trace == "hostile") return make_hostile(design, masks, box_bits, rays);
   const char* const scene = trace == "interior" ? "gen:foliage?twigs=40" : "gen:hair-ball?strands=200";
   const scene::Mesh mesh = scene::load(scene).mesh;
   accel::Bvh4 tree = accel::build(mesh, {});
   RaySource source(tree, mesh);
   const std::vector<Ray> list = rays_of(trace == "single" ? "hair" : trace, source, trace == "single" ? 1 : rays);
-  return std::make_unique<test::World>(std::move(tree), design, list, masks);
+  return std::make_unique<test::World>(std::move(tree), design, list, masks, box_bits);
 }
 
 }  // namespace ctu::cosim

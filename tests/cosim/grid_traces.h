@@ -15,8 +15,9 @@ inline const std::vector<std::string>& grid_traces() {
   return names;
 }
 
-/// `rays`: about how many. Same name, masks and numbers: the same world.
+/// `box_bits` of a coordinate of the nodes' boxes; `rays`: about how many. Same name, masks and numbers: the same
+/// world.
 std::unique_ptr<test::World> make_grid_world(const std::string& trace, cull::Design design,
-                                             const cull::MaskOptions& masks, int rays);
+                                             const cull::MaskOptions& masks, std::uint32_t box_bits, int rays);
 
 }  // namespace ctu::cosim

@@ -223,7 +223,10 @@ TEST_F(CommandTest, nodes_have_the_bytes_that_masks_and_alignment_ask_for) {
                                                 {"--culling off", 112},
                                                 {"--node-align 128", 256},
                                                 {"--node-align 128 --compress 16", 128},
-                                                {"--node-align 64 --culling off", 128}};
+                                                {"--node-align 64 --culling off", 128},
+                                                {"--box-bits 16", 112},
+                                                {"--box-bits 12 --culling off", 68},
+                                                {"--box-bits 8 --compress 256", 60}};
   for (const auto& [options, bytes] : stride_of) {
     ASSERT_EQ(ctusim("record 'gen:hair-ball?strands=50' -o stride.ctut --size 8x8 " + options).exit_code, 0) << options;
     const Outcome info = ctusim("trace info stride.ctut");
@@ -231,6 +234,30 @@ TEST_F(CommandTest, nodes_have_the_bytes_that_masks_and_alignment_ask_for) {
   }
   ASSERT_EQ(ctusim("record 'gen:hair-ball?strands=50' -o stride.ctut --size 8x8 --triangle-align 64").exit_code, 0);
   EXPECT_NE(ctusim("trace info stride.ctut").out.find("triangles of 64 bytes"), std::string::npos);
+}
+
+TEST_F(CommandTest, boxes_of_fewer_bits_give_the_same_hits_with_every_design_and_source) {
+  const std::string scene = "record 'gen:hair-ball?strands=100' --size 32x32 -o ";
+  ASSERT_EQ(ctusim(scene + "full.ctut").exit_code, 0);
+  ASSERT_EQ(ctusim(scene + "few.ctut --box-bits 8").exit_code, 0);
+  EXPECT_NE(ctusim("trace info few.ctut").out.find("8 bits for each coordinate"), std::string::npos);
+  for (const std::string design : {"none", "projection", "comparators"}) {
+    std::map<std::string, json> results;
+    for (const std::string trace : {"full", "few"})
+      for (const std::string source : {"replay", "exec"}) {
+        const Outcome run =
+            ctusim("run " + trace + ".ctut --json r.json --source " + source + " --set mask_test.design=" + design);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        results[trace + source] = json::parse(read_text(file("r.json")));
+        EXPECT_EQ(results[trace + source]["wrong_hits"], 0);
+      }
+    EXPECT_EQ(results["fewexec"]["cycles"], results["fewreplay"]["cycles"]) << design;
+    EXPECT_EQ(results["fewexec"]["event_log_hash"], results["fewreplay"]["event_log_hash"]) << design;
+    if (design == "none")
+      EXPECT_GE(results["fewexec"]["intersections_per_ray"], results["fullexec"]["intersections_per_ray"]);
+  }
+  const Outcome table = ctusim("precision 'gen:hair-ball?strands=100' --size 16x16 --box-bits 32,8 --designs none");
+  EXPECT_EQ(table.exit_code, 0) << table.err;
 }
 
 TEST_F(CommandTest, nodes_whose_masks_are_full_take_no_bytes_for_them_and_change_no_work) {
@@ -325,6 +352,8 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
     expect_refused(command + "bit-table", "not compressed");
   }
   expect_refused("record gen:hair-ball -o x.ctut --node-align 24", "--node-align");
+  expect_refused("record gen:hair-ball -o x.ctut --box-bits 10", "--box-bits");
+  expect_refused("precision gen:hair-ball --box-bits 32,", "--box-bits");
   expect_refused("record gen:hair-ball -o x.ctut --triangle-align 0", "--triangle-align");
   expect_refused("record gen:hair-ball -o x.ctut --culling off --strip-full", "--strip-full");
   expect_refused("record gen:hair-ball -o x.ctut --culling maybe", "--culling");
