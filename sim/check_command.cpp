@@ -59,8 +59,10 @@ check::SetupChoice setup_choice(const CheckArgs& args) {
   if (args.resolution != 0) choice.resolution = args.resolution;
   if (args.ray_resolution != 0) choice.ray_resolution = args.ray_resolution;
   if (!args.levels.empty()) choice.levels = parse_levels(args.levels);
-  require_box_bits(args.box_bits);
-  choice.box_bits = args.box_bits;
+  if (args.box_bits != 0) {
+    require_box_bits(args.box_bits);
+    choice.box_bits = args.box_bits;
+  }
   check::validate(choice);
   return choice;
 }
@@ -79,7 +81,7 @@ std::string remake_command(const CheckArgs& args, std::uint64_t seed, const chec
   if (args.resolution != 0) command += fmt::format(" --r {}", args.resolution);
   if (args.ray_resolution != 0) command += fmt::format(" --r-ray {}", args.ray_resolution);
   if (!args.levels.empty()) command += " --l " + args.levels;
-  if (args.box_bits != accel::kFullBoxBits) command += fmt::format(" --box-bits {}", args.box_bits);
+  if (args.box_bits != 0) command += fmt::format(" --box-bits {}", args.box_bits);
   return command;
 }
 
@@ -116,6 +118,7 @@ void choose_engine(const CheckArgs& args, CampaignOptions& options) {
   } else if (args.engine == "rtl") {
     options.draw_setup = check::draw_rtl_setup(choice);
     options.make_execution = check::make_rtl_execution;
+    options.most_pairs = 1u << 15;  // duplicates by the thousand would take most of the time
   } else {
     throw Error("--engine", fmt::format("unknown value \"{}\"", args.engine), "give reference, cycle or rtl");
   }

@@ -357,7 +357,9 @@ void add_check(CLI::App& app, Parsed& parsed) {
   command->add_option("--r-ray", args.ray_resolution, "R_ray: cells per axis of the ray's key; 0: drawn from R on")
       ->capture_default_str();
   command->add_option("--l", args.levels, "L: levels below from which masks are made, 1..5 or inf; without it drawn");
-  command->add_option("--box-bits", args.box_bits, "of each coordinate of boxes: 32, 16, 12 or 8")
+  command
+      ->add_option("--box-bits", args.box_bits,
+                   "of each coordinate of a node's boxes: 32, 16, 12 or 8; 0: drawn, mostly 32")
       ->capture_default_str();
   command->add_option("--threads", args.threads, "0: one for each core; counts do not depend on it")
       ->capture_default_str();

@@ -62,8 +62,8 @@ struct RunArgs {
   std::string json_path;
   std::string waves_path, window;
   bool gives_mode = false, gives_source = false;  ///< on the command line
-  std::uint64_t first_ray = 0, rays = 0;  ///< rays 0: to the end
-  std::string command;                    ///< as it was typed
+  std::uint64_t first_ray = 0, rays = 0;          ///< rays 0: to the end
+  std::string command;                            ///< as it was typed
 };
 
 struct CompareArgs {
@@ -163,7 +163,7 @@ struct CheckArgs {
   std::string designs;                     ///< list; empty: all that the engine has
   int resolution = 0, ray_resolution = 0;  ///< 0: drawn for each scene
   std::string levels;                      ///< empty: drawn
-  std::uint32_t box_bits = 32;             ///< of a coordinate of boxes
+  std::uint32_t box_bits = 0;              ///< 0: drawn
   std::string budget = "60s";
   std::uint64_t seed = 0;              ///< 0: a fresh one
   std::optional<std::uint64_t> scene;  ///< only this one of each generator

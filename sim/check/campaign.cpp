@@ -34,7 +34,8 @@ class Worker {
 
   SceneOutcome run(SceneNumber number) {
     CaseRandom random = scene_random(options_.seed, number);
-    const CheckScene scene = make_scene(options_.seed, number, options_.draw_setup, random, testers_);
+    CheckScene scene = make_scene(options_.seed, number, options_.draw_setup, random, testers_);
+    leave_out_rays(scene);
     const Answers answers = execution_->run(scene, random);
     SceneOutcome outcome;
     outcome.tally.scenes = 1;
@@ -45,6 +46,11 @@ class Worker {
   }
 
  private:
+  void leave_out_rays(CheckScene& scene) const {
+    const std::uint64_t most = std::max<std::uint64_t>(options_.most_pairs / scene.bvh.triangles.size(), 1);
+    if (scene.hard.rays.size() > most) scene.hard.rays.resize(most);
+  }
+
   void judge_answers(const CheckScene& scene, const Answers& answers, SceneOutcome& outcome) {
     Judge judge(scene);
     for (std::uint32_t ray = 0; ray < scene.hard.rays.size(); ++ray) {

@@ -31,8 +31,9 @@ struct CampaignOptions {
   MakeExecution make_execution;
   Budget budget;
   int threads = 1;
-  bool stop_at_failure = false;    ///< no scene is begun once one has lost a hit
-  std::size_t kept_failures = 16;  ///< the first ones, in the order of scenes
+  bool stop_at_failure = false;           ///< no scene is begun once one has lost a hit
+  std::uint64_t most_pairs = UINT64_MAX;  ///< of a ray and a triangle in a scene; rays beyond are left out
+  std::size_t kept_failures = 16;         ///< the first ones, in the order of scenes
 };
 
 /// A ray whose answer is wrong.

@@ -29,4 +29,10 @@ CheckScene make_scene(std::uint64_t seed, SceneNumber number, const DrawSetup& d
   return scene;
 }
 
+accel::Image image_of(const CheckScene& scene) {
+  accel::ImageLayout layout;
+  layout.box_bits = scene.setup.box_bits;
+  return traces::image_of(scene.bvh, scene.setup.design == cull::Design::None ? nullptr : &scene.masks, layout);
+}
+
 }  // namespace ctu::sim::check

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "model/accel/bvh4.h"
+#include "model/accel/image.h"
 #include "model/reference/node_test.h"
 #include "sim/check/culling_setup.h"
 #include "sim/check/hard_case.h"
@@ -38,5 +39,8 @@ CaseRandom scene_random(std::uint64_t seed, SceneNumber number);
 /// `random`: scene_random of it, from which the setup is drawn.
 CheckScene make_scene(std::uint64_t seed, SceneNumber number, const DrawSetup& draw, CaseRandom& random,
                       TesterCache& testers);
+
+/// The bytes that a unit of the scene's design fetches.
+accel::Image image_of(const CheckScene& scene);
 
 }  // namespace ctu::sim::check

@@ -76,15 +76,18 @@ CullingSetup draw_setup(const SetupChoice& choice, CaseRandom& random) {
   constexpr int kLevels[] = {cull::kUnlimitedLevels, cull::kUnlimitedLevels, cull::kUnlimitedLevels, 1, 2, 3};
   constexpr int kLeaves[] = {1, 2, 4, 4, 8, 15};
   constexpr int kEntries[] = {16, 32, 64};
+  constexpr std::uint32_t kReduced[] = {16, 12, 8};
   CullingSetup setup;
   setup.design = choice.designs[static_cast<std::size_t>(random.below(static_cast<int>(choice.designs.size())))];
   const bool compressed = random.chance(0.125);
   const int entries = random.one_of(kEntries), levels = random.one_of(kLevels);
   setup.leaf_triangles = random.one_of(kLeaves);
-  setup.box_bits = choice.box_bits;
   if (setup.design == Design::BitTable || (compressed && setup.design != Design::None)) setup.masks.entries = entries;
   setup.masks.levels = choice.levels.value_or(levels);
   draw_resolutions(choice, random, setup);
+  const std::uint32_t reduced = random.one_of(kReduced),
+                      box_bits = random.chance(0.125) ? reduced : accel::kFullBoxBits;
+  setup.box_bits = choice.box_bits.value_or(box_bits);
   return setup;
 }
 

@@ -10,7 +10,7 @@
 #include <tuple>
 #include <vector>
 
-#include "model/accel/box_frame.h"
+#include "model/accel/compact_node.h"
 #include "model/cull/mask_test.h"
 #include "model/cull/options.h"
 #include "sim/check/case_random.h"
@@ -20,8 +20,8 @@ namespace ctu::sim::check {
 struct CullingSetup {
   cull::Design design = cull::Design::Projection;
   cull::MaskOptions masks;
-  int leaf_triangles = 4;  ///< at most
-  std::uint32_t box_bits = accel::kFullBoxBits;
+  int leaf_triangles = 4;                        ///< at most
+  std::uint32_t box_bits = accel::kFullBoxBits;  ///< of a coordinate of a node's boxes
 };
 
 /// "mask-lut R 4, R_ray 6, L inf, leaves of 2".
@@ -30,7 +30,7 @@ std::string to_string(const CullingSetup& setup);
 struct SetupChoice {
   std::vector<cull::Design> designs;  ///< one of these; must not be empty
   std::optional<int> resolution{}, ray_resolution{}, levels{};
-  std::uint32_t box_bits = accel::kFullBoxBits;  ///< of a coordinate of boxes
+  std::optional<std::uint32_t> box_bits{};  ///< of a coordinate of boxes
 };
 
 /// All that decide a ray's answer in software.
@@ -40,7 +40,8 @@ std::vector<cull::Design> all_designs();
 void validate(const SetupChoice& choice);
 
 /// Draws what is not chosen: R 2..8, R_ray R..2R as far as a table of it is made in a moment, L mostly unlimited,
-/// leaves of 1 to 15 triangles, and for some scenes compressed masks. R_ray is raised to R where R is above it.
+/// leaves of 1 to 15 triangles, and for some scenes compressed masks or boxes of reduced precision. R_ray is raised to
+/// R where R is above it.
 CullingSetup draw_setup(const SetupChoice& choice, CaseRandom& random);
 
 /// Mask tests by what their tables depend on, shared by scenes and threads. Compressed masks have their own.

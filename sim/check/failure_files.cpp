@@ -26,9 +26,7 @@ traces::Manifest manifest_of(const CheckScene& scene, std::uint64_t seed) {
 }  // namespace
 
 void write_one_ray_trace(const CheckScene& scene, std::uint32_t ray, std::uint64_t seed, const std::string& path) {
-  const bool culls = scene.setup.design != cull::Design::None;
-  const accel::ImageLayout layout{.box_bits = scene.setup.box_bits};
-  const accel::Image image = traces::image_of(scene.bvh, culls ? &scene.masks : nullptr, layout);
+  const accel::Image image = image_of(scene);
   traces::TraceWriter writer(path, manifest_of(scene, seed), image, scene.masks.lut.get());
   reference::RayBlock block;
   block.rays = {scene.hard.rays[ray]};

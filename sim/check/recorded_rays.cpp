@@ -14,11 +14,6 @@ std::shared_ptr<const reference::RayBlock> record_rays(const CheckScene& scene) 
   return block;
 }
 
-accel::Image image_of(const CheckScene& scene) {
-  return traces::image_of(scene.bvh, scene.setup.design == cull::Design::None ? nullptr : &scene.masks,
-                          {.box_bits = scene.setup.box_bits});
-}
-
 Answers answers_of(const pipeline::UnitResult& result, const reference::RayBlock& recorded) {
   Answers answers;
   answers.hits = recorded.expected;

@@ -4,7 +4,6 @@
 #include <memory>
 #include <utility>
 
-#include "model/accel/image.h"
 #include "model/pipeline/result.h"
 #include "model/reference/ray_block.h"
 #include "sim/check/execution.h"
@@ -13,9 +12,6 @@ namespace ctu::sim::check {
 
 /// Rays, hits and steps of the scene's own design.
 std::shared_ptr<const reference::RayBlock> record_rays(const CheckScene& scene);
-
-/// The bytes that a unit of the scene's design fetches.
-accel::Image image_of(const CheckScene& scene);
 
 /// One block, once.
 class OneBlockFeed : public reference::RayFeed {

@@ -44,7 +44,7 @@ class RtlExecution : public Execution {
 };
 
 bool has_what_is_chosen(const cosim::RtlParameters& build, const SetupChoice& choice) {
-  if (build.box_bits != choice.box_bits) return false;
+  if (choice.box_bits && *choice.box_bits != build.box_bits) return false;
   if (std::find(choice.designs.begin(), choice.designs.end(), build.design) == choice.designs.end()) return false;
   if (build.design == cull::Design::None) return true;
   if (choice.resolution && *choice.resolution != build.resolution) return false;
@@ -68,6 +68,7 @@ DrawSetup draw_rtl_setup(const SetupChoice& choice) {
     fixed.designs = {build.design};
     fixed.resolution = build.resolution;
     fixed.ray_resolution = build.ray_resolution;
+    fixed.box_bits = build.box_bits;
     CullingSetup setup = draw_setup(fixed, random);
     setup.masks.entries = build.entries == 0 ? 0 : std::min(build.entries, std::max(setup.masks.entries, 16));
     return setup;

@@ -154,6 +154,35 @@ TEST(Campaign, every_kind_of_scene_goes_through_a_trace) {
   }
 }
 
+TEST(Campaign, a_failing_case_is_replayed_by_the_command_beside_it) {
+  SCOPED_TRACE(oracle::seed_note());
+  const std::uint64_t seed = oracle::test_seed();
+  const test::ScratchFolder folder;
+  TesterCache testers;
+  int replayed = 0;
+  for (std::uint32_t generator = 0; generator < generators().size(); generator += 4) {
+    const SceneNumber number{generator, 2};
+    CaseRandom random = scene_random(seed, number);
+    const SetupChoice choice{.designs = {cull::Design::MaskLut, cull::Design::Comparators}};
+    const CheckScene scene = make_scene(seed, number, draw_from(choice), random, testers);
+    const Answers answers = make_reference_execution()->run(scene, random);
+    Judge judge(scene);
+    std::uint32_t ray = 0;  // one that hits what it should, so that the replay must agree
+    while (ray < answers.hits.size() && (answers.hits[ray].primitive == intersect::kNoPrimitive ||
+                                         !same_bits(answers.hits[ray], judge.true_hit(scene.hard.rays[ray]))))
+      ++ray;
+    if (ray == answers.hits.size()) continue;
+    const std::string path = folder.path() / "case.ctut";
+    write_one_ray_trace(scene, ray, seed, path);
+    const std::string engine = generator % 8 == 0 ? "reference" : "cycle";
+    const std::string command = replay_command(scene.setup, engine, path);
+    const test::Outcome outcome = test::run_program(folder.path(), command.substr(command.find(' ') + 1));
+    EXPECT_EQ(outcome.exit_code, 0) << command << "\n" << outcome.out << outcome.err;
+    ++replayed;
+  }
+  EXPECT_GT(replayed, 5);
+}
+
 TEST(CheckCommand, reports_what_it_counted) {
   const test::ScratchFolder folder;
   const test::Outcome outcome =
