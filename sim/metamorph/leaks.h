@@ -13,6 +13,10 @@ namespace ctu::sim::metamorph {
 
 struct Leaks {
   std::uint64_t leaks = 0;  ///< summed over designs, None and all triangles without a tree included
+  /// Rays that only ideal culling lets through: the rounded triangle test gives them to a neighbour of the triangle
+  /// that they meet, which they exactly miss, and ideal culling, which does not round, rightly leaves that one out. The
+  /// designs of the unit may do so as well; theirs are leaks.
+  std::uint64_t declined = 0;
   /// Rays that find nothing up to latest_t where exact arithmetic finds nothing either: rounding has moved them past
   /// what they were aimed at.
   std::uint64_t passed_by = 0;

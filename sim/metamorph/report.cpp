@@ -46,8 +46,11 @@ void print_scene(const NamedReport& named) {
   }
   const EdgeRow& e = named.report.edges;
   if (named.report.edges_checked)
-    fmt::print("{:<20} {} closed parts of {} triangles: {} rays at {} edges and {} vertices, leaks {}, passed by {}\n",
-               named.scene, e.parts, e.triangles, e.rays, e.edges, e.vertices, e.found.leaks, e.found.passed_by);
+    fmt::print(
+        "{:<20} {} closed parts of {} triangles: {} rays at {} edges and {} vertices, leaks {}, declined {}, passed by "
+        "{}\n",
+        named.scene, e.parts, e.triangles, e.rays, e.edges, e.vertices, e.found.leaks, e.found.declined,
+        e.found.passed_by);
   std::fflush(stdout);
 }
 
@@ -61,13 +64,13 @@ void print_markdown(const std::vector<NamedReport>& reports) {
                  row.changed.lost, row.changed.near_misses, row.changed.ties, to_string(row.same),
                  row.same == Same::NotPromised ? "-" : fmt::format("{}", row.rays - row.not_compared));
   fmt::print(
-      "\n| scene | closed parts | triangles | edges | vertices | folds | rays | passed by | leaks |\n"
-      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+      "\n| scene | closed parts | triangles | edges | vertices | folds | rays | passed by | declined | leaks |\n"
+      "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n");
   for (const auto& [scene, report] : reports) {
     const EdgeRow& e = report.edges;
     if (e.parts != 0)
-      fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", scene, e.parts, e.triangles, e.edges, e.vertices,
-                 e.folds, e.rays, e.found.passed_by, e.found.leaks);
+      fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", scene, e.parts, e.triangles, e.edges,
+                 e.vertices, e.folds, e.rays, e.found.passed_by, e.found.declined, e.found.leaks);
   }
 }
 

@@ -24,10 +24,15 @@ ordered_json row_json(const CheckRow& row) {
 }
 
 ordered_json edges_json(const EdgeRow& row) {
-  return {{"closed_parts", row.parts}, {"triangles", row.triangles},
-          {"edges", row.edges},        {"vertices", row.vertices},
-          {"folds", row.folds},        {"rays", row.rays},
-          {"leaks", row.found.leaks},  {"passed_by", row.found.passed_by}};
+  return {{"closed_parts", row.parts},
+          {"triangles", row.triangles},
+          {"edges", row.edges},
+          {"vertices", row.vertices},
+          {"folds", row.folds},
+          {"rays", row.rays},
+          {"leaks", row.found.leaks},
+          {"declined", row.found.declined},
+          {"passed_by", row.found.passed_by}};
 }
 
 }  // namespace
