@@ -70,6 +70,8 @@ DrawSetup draw_rtl_setup(const SetupChoice& choice) {
     fixed.ray_resolution = build.ray_resolution;
     fixed.box_bits = build.box_bits;
     CullingSetup setup = draw_setup(fixed, random);
+    constexpr int kMostTriangles = cosim::kMaxLeafBytes / static_cast<int>(accel::kTriangleBytes);
+    setup.leaf_triangles = std::min(setup.leaf_triangles, kMostTriangles);
     setup.masks.entries = build.entries == 0 ? 0 : std::min(build.entries, std::max(setup.masks.entries, 16));
     return setup;
   };

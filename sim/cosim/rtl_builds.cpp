@@ -22,6 +22,14 @@ std::uint64_t distinct_rows(const pipeline::UnitConfig& config, const pipeline::
   return tables.tables()[1].rows;
 }
 
+int largest_leaf_bytes(const accel::Image& image) {
+  int triangles = 0;
+  for (std::uint32_t n = 0; n < image.node_count; ++n)
+    for (const accel::ChildRef child : accel::read_node(image, n).child)
+      if (accel::is_leaf(child)) triangles = std::max(triangles, accel::leaf_count(child));
+  return triangles * static_cast<int>(image.triangle_stride_bytes);
+}
+
 /// Collects what does not fit.
 class Misfits {
  public:
@@ -111,6 +119,8 @@ std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& confi
   check_cache(misfits, "leaf_cache", build, config.leaf_cache, build.leaf_ports);
   if (build.design == config.mask_test.design && build.design != cull::Design::None)
     check_mask_test(misfits, build, config, work);
+  // Last, as it looks at every node: a leaf that is larger would be read with the wrong triangles in it.
+  if (misfits.text().empty()) misfits.at_most("bytes of a leaf", kMaxLeafBytes, largest_leaf_bytes(work.image));
   return misfits.text();
 }
 

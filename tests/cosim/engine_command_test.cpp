@@ -32,6 +32,19 @@ TEST_F(EngineCommandTest, the_unit_in_gates_returns_every_ray_alone_and_beside_t
   }
 }
 
+TEST_F(EngineCommandTest, leaves_that_the_unit_does_not_keep_whole_are_refused) {
+  const std::string scene = "record 'gen:hair-ball?strands=50&seed=7' -o large.ctut --size 4x4 --rays primary ";
+  // Nothing is split, so leaves of eight triangles are the rule; and two triangles of 128 bytes are 256.
+  for (const std::string options : {"--leaf 8 --triangle-cost 0.01", "--triangle-align 128"}) {
+    ASSERT_EQ(ctusim(scene + options).exit_code, 0) << options;
+    for (const std::string engine : {"rtl", "both"}) {
+      const Outcome outcome = ctusim("run large.ctut --engine " + engine);
+      EXPECT_EQ(outcome.exit_code, 2) << options << "\n" << outcome.out << outcome.err;
+      EXPECT_NE(outcome.err.find("bytes of a leaf up to 160"), std::string::npos) << options << "\n" << outcome.err;
+    }
+  }
+}
+
 TEST_F(EngineCommandTest, a_unit_without_progress_ends_with_exit_code_3) {
   for (const std::string engine : {"rtl", "both"}) {
     // No link moves between two rays that are returned.
