@@ -90,6 +90,8 @@ const std::vector<GridConfig>& grid_configs() {
       {"boxes-8", "", 0},
       {"boxes-8", "unit.contexts=64 scheduler.policy=round-robin", 50},
       {"boxes-8", "unit.contexts=3 node_cache.bytes=256 node_cache.ways=1", 51},
+      {"boxes-16", "", 0},
+      {"boxes-16", "memory.model=ideal memory.latency=5 memory.interval=1 unit.contexts=11", 52},
   };
   return configs;
 }
