@@ -28,6 +28,7 @@ class RtlExecution : public Execution {
     std::string reasons;
     for (const auto& unit : units_) {
       pipeline::UnitConfig config = cosim::config_of(unit->parameters());
+      config.mask_test.design = scene.setup.design;  // or a scene without masks would suit a build that reads them
       CaseRandom timing = random;
       draw_short_timing(timing, config);
       OneBlockFeed feed(recorded);
