@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <memory>
 
-#include "model/accel/binary_tree.h"
+#include "model/accel/build_by.h"
 #include "model/accel/collapse.h"
 #include "model/accel/mesh_check.h"
-#include "model/accel/split.h"
 #include "model/base/error.h"
 #include "model/base/parallel.h"
 
@@ -56,10 +53,8 @@ float work_scale(const Box3& bounds) {
   return std::ldexp(1.0f, std::clamp(exponent, -149, 126));
 }
 
-using RefArray = std::unique_ptr<TriangleRef[]>;
-
-RefArray make_refs(const scene::Mesh& mesh, float scale, int threads) {
-  RefArray refs = std::make_unique_for_overwrite<TriangleRef[]>(mesh.triangles.size());
+std::unique_ptr<TriangleRef[]> make_refs(const scene::Mesh& mesh, float scale, int threads) {
+  auto refs = std::make_unique_for_overwrite<TriangleRef[]>(mesh.triangles.size());
   parallel_chunks(mesh.triangles.size(), kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
     const __m128 factor = _mm_set1_ps(scale);
     for (std::size_t i = first; i < last; ++i) {
@@ -86,14 +81,23 @@ std::vector<LeafTriangle> in_leaf_order(const scene::Mesh& mesh, std::span<const
 
 }  // namespace
 
-Bvh4 build(const scene::Mesh& mesh, const BuildOptions& options) {
+BuildInput build_input(const scene::Mesh& mesh, const BuildOptions& options) {
   check(options);
   check_count(mesh.triangles.size());
-  const float scale = work_scale(checked_bounds(mesh, options.threads));
-  const RefArray storage = make_refs(mesh, scale, options.threads);
-  const std::span<TriangleRef> refs(storage.get(), mesh.triangles.size());
-  const std::vector<BinaryNode> tree = build_binary_tree(refs, options.bins, options.threads);
-  return collapse(tree, in_leaf_order(mesh, refs, options.threads), options);
+  BuildInput input;
+  input.scale = work_scale(checked_bounds(mesh, options.threads));
+  input.storage = make_refs(mesh, input.scale, options.threads);
+  input.refs = {input.storage.get(), mesh.triangles.size()};
+  return input;
+}
+
+Bvh4 build_output(const scene::Mesh& mesh, const BuildOptions& options, const BuildInput& input,
+                  std::span<const BinaryNode> tree) {
+  return collapse(tree, in_leaf_order(mesh, input.refs, options.threads), options);
+}
+
+Bvh4 build(const scene::Mesh& mesh, const BuildOptions& options) {
+  return build_by(mesh, options, [](float) { return SplitHeuristic<SurfaceArea, AllAxes>{}; });
 }
 
 }  // namespace ctu::accel

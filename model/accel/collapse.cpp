@@ -31,12 +31,12 @@ Share cheapest_share(const Forest& left, const Forest& right, int trees) {
 }
 
 Forest cheapest_forest(const BinaryNode& node, const Forest* left, const Forest* right, const BuildOptions& options) {
-  const float leaf_cost = node.half_area * options.triangle_cost * static_cast<float>(node.triangles);
+  const float leaf_cost = node.chance * options.triangle_cost * static_cast<float>(node.triangles);
   if (node.left == 0) return {{leaf_cost, leaf_cost, leaf_cost}, {0, 0, 0, 0}};
   const Share lanes = cheapest_share(*left, *right, 4);
   Forest forest;
   forest.left[3] = lanes.left;
-  forest.cost[0] = node.half_area * options.node_cost + lanes.cost;
+  forest.cost[0] = node.chance * options.node_cost + lanes.cost;
   forest.left[0] = 1;
   if (node.triangles <= static_cast<std::uint32_t>(options.max_leaf_triangles) && leaf_cost <= forest.cost[0]) {
     forest.cost[0] = leaf_cost;
