@@ -44,13 +44,13 @@ VisitOrder sort_survivors(unsigned survivors, const float* t0) {
 template <bool kRecord>
 class Walk {
  public:
-  Walk(const NodeTest& test_node, const intersect::Ray& ray, StepList* steps)
+  Walk(const NodeTest& test_node, const intersect::Ray& ray, StepList* steps, const intersect::Hit* known)
       : test_node_(test_node),
         bvh_(test_node.bvh()),
         ray_(intersect::prepare_ray(ray)),
         steps_(steps),
         keyed_(cull::reads_tables(test_node.tester().design())) {
-    best_.t = ray.tmax;
+    best_ = known != nullptr ? *known : intersect::Hit{ray.tmax, 0, 0, intersect::kNoPrimitive};
   }
 
   intersect::Hit run() {
@@ -143,9 +143,9 @@ Traversal::Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, con
                 "allow more triangles in a leaf");
 }
 
-intersect::Hit Traversal::trace(const intersect::Ray& ray, StepList* steps) const {
-  if (steps == nullptr) return Walk<false>(test_node_, ray, nullptr).run();
-  Walk<true> walk(test_node_, ray, steps);
+intersect::Hit Traversal::trace(const intersect::Ray& ray, StepList* steps, const intersect::Hit* known) const {
+  if (steps == nullptr) return Walk<false>(test_node_, ray, nullptr, known).run();
+  Walk<true> walk(test_node_, ray, steps, known);
   const intersect::Hit hit = walk.run();
   steps->tail_dropped.push_back(walk.dropped());
   steps->first_step.push_back(steps->steps.size());

@@ -15,8 +15,10 @@ class Traversal {
   /// `masks` may be null when the tester's design is none. All three must outlive this.
   Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester);
 
-  /// The ray's hit. When `steps` is given, its event sequence is appended there as one more ray.
-  intersect::Hit trace(const intersect::Ray& ray, StepList* steps = nullptr) const;
+  /// The ray's hit. When `steps` is given, its event sequence is appended there as one more ray. `known`: a hit, or a
+  /// miss, that is kept unless a better one is found.
+  intersect::Hit trace(const intersect::Ray& ray, StepList* steps = nullptr,
+                       const intersect::Hit* known = nullptr) const;
 
  private:
   NodeTest test_node_;

@@ -1,0 +1,78 @@
+#include "model/influence/local_tree.h"
+
+#include <fmt/format.h>
+
+#include "model/accel/build_by.h"
+#include "model/base/parallel.h"
+#include "model/influence/projected_area.h"
+
+namespace ctu::influence {
+namespace {
+
+constexpr std::size_t kChunkTriangles = 4096;
+
+template <class Chance, class Axes>
+accel::Bvh4 build_with(const scene::Mesh& mesh, const accel::BuildOptions& options, const Chance& chance_at,
+                       const Axes& axes_at) {
+  return accel::build_by(mesh, options, [&](float scale) {
+    return accel::SplitHeuristic{chance_at(scale), axes_at(scale)};
+  });
+}
+
+template <class Chance>
+accel::Bvh4 build_with(const scene::Mesh& mesh, const InfluenceArea& area, const TreeHeuristic& heuristic,
+                       const accel::BuildOptions& options, const Chance& chance_at) {
+  switch (heuristic.axes) {
+    case TreeAxes::All:
+      return build_with(mesh, options, chance_at, [](float) { return accel::AllAxes{}; });
+    case TreeAxes::Longest:
+      return build_with(mesh, options, chance_at, [](float) { return accel::LongestAxis{}; });
+    case TreeAxes::LeastFacing:
+      break;
+  }
+  return build_with(mesh, options, chance_at,
+                    [&](float scale) { return LeastFacingAxes(area, scale, heuristic.thresholds); });
+}
+
+}  // namespace
+
+std::string to_string(const TreeHeuristic& heuristic) {
+  const char* const axes = heuristic.axes == TreeAxes::All       ? "all axes"
+                           : heuristic.axes == TreeAxes::Longest ? "LSPH"
+                                                                 : "SPFH";
+  return fmt::format("{} + {}", axes, heuristic.cost == TreeCost::SurfaceArea ? "SAH" : "PAH");
+}
+
+std::vector<std::uint32_t> triangles_in(const scene::Mesh& mesh, const PreparedArea& area, int threads) {
+  std::vector<std::uint8_t> touches(mesh.triangles.size());
+  parallel_chunks(touches.size(), kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto& [a, b, c] = mesh.triangles[i];
+      touches[i] = area.may_touch(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) ? 1 : 0;
+    }
+  });
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t i = 0; i < touches.size(); ++i)
+    if (touches[i] != 0) ids.push_back(i);
+  return ids;
+}
+
+accel::Bvh4 build_for(const scene::Mesh& mesh, const InfluenceArea& area, const TreeHeuristic& heuristic,
+                      const accel::BuildOptions& options) {
+  if (heuristic.cost == TreeCost::SurfaceArea)
+    return build_with(mesh, area, heuristic, options, [](float) { return accel::SurfaceArea{}; });
+  return build_with(mesh, area, heuristic, options, [&](float scale) { return ProjectedArea(area, scale); });
+}
+
+accel::Bvh4 build_for(const scene::Mesh& mesh, const std::vector<std::uint32_t>& triangles, const InfluenceArea& area,
+                      const TreeHeuristic& heuristic, const accel::BuildOptions& options) {
+  scene::Mesh part;
+  part.vertices = mesh.vertices;
+  part.triangles.reserve(triangles.size());
+  for (const std::uint32_t id : triangles) part.triangles.push_back(mesh.triangles[id]);
+  accel::Bvh4 bvh = build_for(part, area, heuristic, options);
+  for (accel::LeafTriangle& triangle : bvh.triangles) triangle.primitive = triangles[triangle.primitive];
+  return bvh;
+}
+
+}  // namespace ctu::influence

@@ -1,0 +1,38 @@
+// The tree of an influence area: over every triangle with a point in the area, built for the rays that run there.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/accel/build.h"
+#include "model/influence/area.h"
+#include "model/influence/facing.h"
+
+namespace ctu::influence {
+
+/// What a box costs.
+enum class TreeCost : std::uint8_t { SurfaceArea, ProjectedArea };
+/// Which axes a node is cut across.
+enum class TreeAxes : std::uint8_t { All, Longest, LeastFacing };
+
+struct TreeHeuristic {
+  TreeCost cost = TreeCost::SurfaceArea;
+  TreeAxes axes = TreeAxes::LeastFacing;
+  FacingThresholds thresholds = kStrictThresholds;
+};
+/// "SPFH + SAH" and so on, as the paper names them.
+std::string to_string(const TreeHeuristic& heuristic);
+
+/// Ids of the triangles that may have a point in the area, ascending: none that has one is left out.
+std::vector<std::uint32_t> triangles_in(const scene::Mesh& mesh, const PreparedArea& area, int threads);
+
+/// The tree over the triangles of `mesh`, by the heuristic for the rays of `area`.
+accel::Bvh4 build_for(const scene::Mesh& mesh, const InfluenceArea& area, const TreeHeuristic& heuristic,
+                      const accel::BuildOptions& options);
+
+/// The same over some of the triangles, at least one: its leaves carry the ids that the whole mesh gives them.
+accel::Bvh4 build_for(const scene::Mesh& mesh, const std::vector<std::uint32_t>& triangles, const InfluenceArea& area,
+                      const TreeHeuristic& heuristic, const accel::BuildOptions& options);
+
+}  // namespace ctu::influence
