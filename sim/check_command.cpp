@@ -10,6 +10,7 @@
 #include "model/base/parallel.h"
 #include "sim/check/comparison.h"
 #include "sim/check/failure_files.h"
+#include "sim/check/packets/packet_campaign.h"
 #include "sim/check/report.h"
 #include "sim/check/unit_execution.h"
 #include "sim/commands.h"
@@ -30,21 +31,23 @@ std::uint64_t fresh_seed() {
   return seed;
 }
 
-std::uint32_t generator_named(const std::string& name) {
+/// Of a list of generators, the place of the one with the name.
+template <class Generators>
+std::uint32_t generator_named(const Generators& all, const std::string& name) {
   std::vector<std::string> known;
-  const auto all = check::generators();
   for (std::uint32_t i = 0; i < all.size(); ++i) {
     if (all[i].name == name) return i;
     known.emplace_back(all[i].name);
   }
   throw Error("--generator", fmt::format("unknown generator \"{}\"", name),
-              fmt::format("did you mean \"{}\"? `ctusim check --list` prints all", nearest_name(name, known)));
+              fmt::format("did you mean \"{}\"? --list prints all", nearest_name(name, known)));
 }
 
-std::vector<std::uint32_t> chosen_generators(const std::vector<std::string>& names) {
+template <class Generators>
+std::vector<std::uint32_t> chosen_generators(const Generators& all, const std::vector<std::string>& names) {
   std::vector<std::uint32_t> chosen;
-  for (const std::string& name : names) chosen.push_back(generator_named(name));
-  for (std::uint32_t i = 0; names.empty() && i < check::generators().size(); ++i) chosen.push_back(i);
+  for (const std::string& name : names) chosen.push_back(generator_named(all, name));
+  for (std::uint32_t i = 0; names.empty() && i < all.size(); ++i) chosen.push_back(i);
   return chosen;
 }
 
@@ -67,9 +70,9 @@ check::SetupChoice setup_choice(const CheckArgs& args) {
   return choice;
 }
 
-void list_generators() {
-  for (const check::Generator& generator : check::generators())
-    fmt::print("{:<24}{}\n", generator.name, generator.what);
+template <class Generators>
+void list_generators(const Generators& all) {
+  for (const auto& generator : all) fmt::print("{:<24}{}\n", generator.name, generator.what);
 }
 
 /// The options that decide a scene, as they were given: with seed, generator and scene they remake it.
@@ -127,7 +130,7 @@ void choose_engine(const CheckArgs& args, CampaignOptions& options) {
 CampaignOptions campaign_options(const CheckArgs& args) {
   CampaignOptions options;
   options.seed = args.seed != 0 ? args.seed : fresh_seed();
-  options.generators = chosen_generators(args.generators);
+  options.generators = chosen_generators(check::generators(), args.generators);
   options.only_scene = args.scene;
   options.budget = check::parse_budget(args.budget);
   options.threads = args.threads == 0 ? available_threads() : args.threads;
@@ -158,13 +161,51 @@ int compare(const CheckArgs& args, const CampaignOptions& options) {
   return result.safe_forms_lost() == 0 ? 0 : 1;
 }
 
+/// What a campaign of scenes is asked with says nothing about packets.
+void require_packet_options(const CheckArgs& args) {
+  const bool of_scenes = args.engine != "reference" || !args.designs.empty() || args.resolution != 0 ||
+                         args.ray_resolution != 0 || !args.levels.empty() || args.box_bits != 0 || args.compare ||
+                         !args.failures.empty() || !args.json_path.empty();
+  if (of_scenes)
+    throw Error("--packets",
+                "asks the packet culling methods alone; it has no engine, design, masks, files or --compare",
+                "give --budget, --seed, --generator, --scene, --threads and --max-failures only");
+}
+
+int check_packets(const CheckArgs& args) {
+  require_packet_options(args);
+  check::PacketCampaignOptions options;
+  options.seed = args.seed != 0 ? args.seed : fresh_seed();
+  options.generators = chosen_generators(check::packet_generators(), args.generators);
+  options.only_case = args.scene;
+  options.budget = check::parse_budget(args.budget);
+  options.threads = args.threads == 0 ? available_threads() : args.threads;
+  options.kept_failures = args.kept_failures;
+  fmt::print("seed {}\n", options.seed);
+  std::fflush(stdout);
+  check::PacketCampaignResult result;
+  {
+    Progress bar("checking", options.budget.cases, "packets");
+    result = check::run_packet_campaign(options, [&](std::uint64_t packets) { bar.update(packets); });
+  }
+  check::print_packet_campaign(options, result);
+  for (const check::PacketFailure& failure : result.failures)
+    fmt::print("failed: {}\n  ctusim check --packets --seed {} --generator {} --scene {}\n", failure.what, options.seed,
+               check::packet_generators()[failure.generator].name, failure.number);
+  return result.wrong() == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int check_command(const CheckArgs& args) {
   if (args.list) {
-    list_generators();
+    if (args.packets)
+      list_generators(check::packet_generators());
+    else
+      list_generators(check::generators());
     return 0;
   }
+  if (args.packets) return check_packets(args);
   const CampaignOptions options = campaign_options(args);
   if (!args.json_path.empty()) check_writable(args.json_path);
   fmt::print("seed {}\n", options.seed);

@@ -370,6 +370,9 @@ void add_check(CLI::App& app, Parsed& parsed) {
   command->add_flag(
       "--compare", args.compare,
       "what the paper's Algorithm 1 in plain binary32 and padding by an epsilon lose, beside the safe forms");
+  command->add_flag("--packets", args.packets,
+                    "random packets of rays instead: what every packet culling method says of boxes, triangles and "
+                    "spheres; a case is a packet");
   command->add_flag("--list", args.list, "print the generators, and do nothing else");
   command->callback([&] { parsed.exit_code = check_command(args); });
 }

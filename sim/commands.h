@@ -172,6 +172,7 @@ struct CheckArgs {
   std::string failures;  ///< folder; empty: failing cases are printed only
   std::size_t kept_failures = 16;
   bool compare = false;  ///< naive forms of the node test with the safe ones
+  bool packets = false;  ///< packet culling instead of an engine
   bool list = false;     ///< the generators, and nothing else
   std::string command;   ///< as it was typed
 };
