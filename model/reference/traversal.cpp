@@ -8,6 +8,7 @@
 
 #include "model/base/error.h"
 #include "model/intersect/triangle_test.h"
+#include "model/reference/visit_order.h"
 
 namespace ctu::reference {
 namespace {
@@ -21,24 +22,6 @@ struct StackEntry {
 
 // Step::dropped counts in 8 bits, so no ray may ever hold more entries than that.
 constexpr int kMaxStackEntries = std::numeric_limits<std::uint8_t>::max();
-
-/// The survivors' lanes, nearest first; equal distances in lane order.
-struct VisitOrder {
-  int count = 0;
-  std::uint8_t lane[kLanes] = {};
-};
-
-VisitOrder sort_survivors(unsigned survivors, const float* t0) {
-  VisitOrder order;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    if (((survivors >> lane) & 1u) == 0) continue;
-    int position = order.count++;
-    for (; position > 0 && t0[lane] < t0[order.lane[position - 1]]; --position)
-      order.lane[position] = order.lane[position - 1];
-    order.lane[position] = static_cast<std::uint8_t>(lane);
-  }
-  return order;
-}
 
 /// One ray on its way through the tree. `kRecord` decides once whether the event sequence is written.
 template <bool kRecord>
