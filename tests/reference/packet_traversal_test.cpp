@@ -123,7 +123,7 @@ TEST(PacketTraversal, rays_find_in_packets_what_they_find_alone_in_shared_scenes
 }
 
 TEST(PacketTraversal, a_ray_asks_for_each_test_once_itself_or_through_its_packet) {
-  const World world("gen:tilted-quads?quads=500");
+  const World world("gen:tilted-quads?quads=60&size=0.8");
   const std::vector<Ray> rays = world.camera_and_bounces(64);
   reference::Counts single;
   alone(world.bvh, rays, single);
