@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@ namespace ctu::cosim {
 namespace {
 
 constexpr int kMaxHitLatency = 31;  ///< unit_bench.sv
+constexpr std::string_view kOtherSources = "was built from other sources than this program";
 
 /// Rows of dedup's second memory.
 std::uint64_t distinct_rows(const pipeline::UnitConfig& config, const pipeline::Work& work) {
@@ -98,6 +100,17 @@ std::string library_folder(const std::string& given) {
   return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rtl").string();
 }
 
+/// The library's unit; none when it was built from other sources than this program, whose calls it may not understand.
+std::unique_ptr<RtlUnit> load_if_current(const std::string& library) {
+  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  using Make = RtlUnit* (*)();
+  const auto make = handle == nullptr ? nullptr : reinterpret_cast<Make>(dlsym(handle, "ctu_make_rtl_unit"));
+  if (make == nullptr) throw Error(library, dlerror(), "build it again: `./dev rtl`");
+  const auto* const sources = static_cast<const char*>(dlsym(handle, "ctu_rtl_sources"));
+  if (sources == nullptr || sources != std::string_view(CTU_RTL_SOURCES)) return nullptr;
+  return std::unique_ptr<RtlUnit>(make());
+}
+
 }  // namespace
 
 std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& config, const pipeline::Work& work) {
@@ -158,18 +171,20 @@ std::vector<std::string> rtl_libraries(const std::string& folder) {
 }
 
 std::unique_ptr<RtlUnit> load_rtl_unit(const std::string& library) {
-  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-  using Make = RtlUnit* (*)();
-  const auto make = handle == nullptr ? nullptr : reinterpret_cast<Make>(dlsym(handle, "ctu_make_rtl_unit"));
-  if (make == nullptr) throw Error(library, dlerror(), "build it again: `./dev rtl`");
-  return std::unique_ptr<RtlUnit>(make());
+  std::unique_ptr<RtlUnit> unit = load_if_current(library);
+  if (unit == nullptr) throw Error(library, std::string(kOtherSources), "build it again: `./dev rtl`");
+  return unit;
 }
 
 std::unique_ptr<RtlUnit> make_rtl_unit(const pipeline::UnitConfig& config, const pipeline::Work& work,
                                        const std::string& folder) {
   std::string reasons;
   for (const std::string& library : rtl_libraries(folder)) {
-    std::unique_ptr<RtlUnit> unit = load_rtl_unit(library);
+    std::unique_ptr<RtlUnit> unit = load_if_current(library);
+    if (unit == nullptr) {
+      reasons += fmt::format("\n  {}: {}: `./dev rtl` builds it again", library, kOtherSources);
+      continue;
+    }
     const std::string reason = misfit(unit->parameters(), config, work);
     if (reason.empty()) return unit;
     reasons += fmt::format("\n  {}: {}", unit->parameters().name, reason);

@@ -26,7 +26,7 @@ std::vector<std::string> rtl_libraries(const std::string& folder = {});
 /// Throws Error that says of each build what does not fit.
 std::unique_ptr<RtlUnit> make_rtl_unit(const pipeline::UnitConfig& config, const pipeline::Work& work,
                                        const std::string& folder = {});
-/// The unit of one library. Throws Error when it cannot be loaded.
+/// The unit of one library. Throws Error when it cannot be loaded, or was built from other sources than this program.
 std::unique_ptr<RtlUnit> load_rtl_unit(const std::string& library);
 
 }  // namespace ctu::cosim
