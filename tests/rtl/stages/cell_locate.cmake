@@ -37,4 +37,4 @@ ctu_test(test_rtl_locate_lanes
 rtl_check(float_fraction SOURCES ${rtl_float_sources} ${rtl}/float/float_fraction.sv)
 rtl_check(float_key SOURCES ${rtl}/float/float_key.sv)
 rtl_check(comparator_lane SOURCES ${comparator_lane_sources})
-rtl_check(cell_locate SOURCES ${cell_locate_sources})
+rtl_check(cell_locate SOURCES ${cell_locate_sources} PARTS_CHECKED)
