@@ -90,7 +90,7 @@ struct Parsed {
   HeatmapArgs heatmap;
   TablesArgs tables;
   AreaArgs area;
-  PaperArgs paper;
+  PaperArgs paper, paper_raydist;
   TraceArgs trace;
   UnitArgs config;
   bool config_plain = false;
@@ -274,6 +274,25 @@ void add_area(CLI::App& app, Parsed& parsed) {
   command->callback([&] { parsed.exit_code = area_command(parsed.area); });
 }
 
+void add_paper_raydist(CLI::App& paper, Parsed& parsed) {
+  auto* command = paper.add_subcommand(
+      "raydist", "ray-distribution-aware trees: predicted and measured costs, build times, areas found from the rays");
+  PaperArgs& args = parsed.paper_raydist;
+  SceneArgs& scene = args.scene;
+  scene.size.clear();
+  scene.spp = 0;
+  scene.leaf_triangles = 2;
+  command->add_option("scene", scene.scenes, "scenes: names of the index, files or generated ones; none: all");
+  add_index_option(*command, scene);
+  command->add_flag("--quick", args.quick, "96x54 pixels instead of 240x135, fewer affine rays");
+  command->add_option("--size", scene.size, "picture size in pixels, WxH");
+  command->add_option("--seed", scene.seed, "seed of every random number")->capture_default_str();
+  add_model_options(*command, scene);
+  command->add_option("--leaf", scene.leaf_triangles, "triangles in a leaf, at most")->capture_default_str();
+  command->add_option("--threads", scene.threads, "0: one for each core")->capture_default_str();
+  command->callback([&] { parsed.exit_code = paper_raydist_command(args); });
+}
+
 void add_paper(CLI::App& app, Parsed& parsed) {
   auto* command =
       app.add_subcommand("paper", "the evaluation of a paper with our scenes, published values beside ours");
@@ -298,6 +317,7 @@ void add_paper(CLI::App& app, Parsed& parsed) {
   subspace->add_option("--leaf", scene.leaf_triangles, "triangles in a leaf, at most")->capture_default_str();
   subspace->add_option("--threads", scene.threads, "0: one for each core")->capture_default_str();
   subspace->callback([&] { parsed.exit_code = paper_subspace_command(args); });
+  add_paper_raydist(*command, parsed);
 }
 
 void add_trace(CLI::App& app, Parsed& parsed) {
@@ -317,6 +337,10 @@ void add_trace(CLI::App& app, Parsed& parsed) {
   slice->add_option("--first", parsed.trace.first_ray, "first ray")->capture_default_str();
   slice->add_option("--rays", parsed.trace.rays, "number of rays")->capture_default_str();
   slice->callback([&] { parsed.exit_code = trace_slice_command(parsed.trace); });
+  auto* areas = command->add_subcommand(
+      "areas", "find where its rays run to a light, and what trees of their own for these areas would save");
+  areas->add_option("trace", parsed.trace.trace, "trace file")->required();
+  areas->callback([&] { parsed.exit_code = trace_areas_command(parsed.trace); });
 }
 
 void add_config(CLI::App& app, Parsed& parsed) {

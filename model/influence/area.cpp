@@ -54,19 +54,17 @@ Axis3 difference(const BoundedPoint& a, const BoundedPoint& b) {
 
 const char* to_string(AreaKind kind) { return kind == AreaKind::Plane ? "plane" : "point"; }
 
-void check(const InfluenceArea& area) {
-  const char* const where = "influence area";
+const char* problem_of(const InfluenceArea& area) {
   bool finite = is_finite(area.origin);
   for (const Vec3& axis : area.axes) finite = finite && is_finite(axis);
   for (const float x : {area.half_x, area.half_y, area.near, area.far}) finite = finite && std::isfinite(x);
-  if (!finite) throw Error(where, "a number of it is not finite", "give finite numbers");
+  if (!finite) return "a number of it is not finite";
   const Vector64 u(area.axes[0]), v(area.axes[1]), w(area.axes[2]);
-  if (!(std::fabs(scene::dot(scene::cross(u, v), w)) > 0))
-    throw Error(where, "its axes do not span space", "give three axes across each other");
-  if (area.half_x < 0 || area.half_y < 0) throw Error(where, "a width of it is negative", "give widths of 0 or more");
-  if (area.near > area.far) throw Error(where, "it ends before it begins", "exchange near and far");
-  if (area.kind == AreaKind::Point && area.near < 0)
-    throw Error(where, "it reaches behind its focal point", "give a near distance of 0 or more");
+  if (!(std::fabs(scene::dot(scene::cross(u, v), w)) > 0)) return "its axes do not span space";
+  if (area.half_x < 0 || area.half_y < 0) return "a width of it is negative";
+  if (area.near > area.far) return "it ends before it begins";
+  if (area.kind == AreaKind::Point && area.near < 0) return "it begins behind its focal point";
+  return nullptr;
 }
 
 std::array<Vec3, 3> frame_along(const Vec3& direction, const Vec3& across) {
@@ -77,7 +75,8 @@ std::array<Vec3, 3> frame_along(const Vec3& direction, const Vec3& across) {
 }
 
 PreparedArea::PreparedArea(const InfluenceArea& area) : area_(area) {
-  check(area);
+  if (const char* const problem = problem_of(area))
+    throw Error("influence area", problem, "describe a box or a frustum");
   body_ = body_of(area);
 }
 

@@ -26,9 +26,9 @@ struct InfluenceArea {
   float near = 0, far = 0;       ///< along the third axis; a point area's are not negative
 };
 
-/// Throws Error unless all numbers are finite, the axes span space, no width is negative, near <= far, and a point
-/// area's near is at or beyond its focal point.
-void check(const InfluenceArea& area);
+/// What is wrong with an area whose numbers are not all finite, whose axes do not span space, which has a negative
+/// width or ends before it begins, or, a point area, begins behind its focal point. Null for one that is right.
+const char* problem_of(const InfluenceArea& area);
 
 /// Three perpendicular unit vectors to binary32, the third along `direction` (not zero), the first as near as possible
 /// to `across`.
@@ -37,7 +37,7 @@ std::array<Vec3, 3> frame_along(const Vec3& direction, const Vec3& across);
 /// An area ready to be asked.
 class PreparedArea {
  public:
-  /// Throws Error as check() does.
+  /// Throws Error when there is a problem_of() it.
   explicit PreparedArea(const InfluenceArea& area);
 
   const InfluenceArea& area() const { return area_; }

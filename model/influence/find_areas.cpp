@@ -164,17 +164,24 @@ std::optional<Vector64> middle_of_cone(const Vector64& light, const Bundle& bund
   return middle;
 }
 
-void add_point_areas(const Vector64& light, const Bundle& bundle, std::size_t least_rays, double margin,
+/// Rays so far out that binary32 has no numbers for their area go without.
+void add(const InfluenceArea& area, const Bundle& bundle, std::vector<FoundArea>& areas) {
+  if (problem_of(area) == nullptr) areas.push_back({area, bundle.size()});
+}
+
+void add_point_areas(const Vector64& light, Bundle bundle, std::size_t least_rays, double margin,
                      std::vector<FoundArea>& areas) {
+  for (Sight& sight : bundle)  // beyond the light they run apart
+    if (scene::dot(sight.end - light, sight.direction) > 0) sight.end = light;
   if (const auto middle = middle_of_cone(light, bundle)) {
-    areas.push_back({point_area(light, *middle, bundle, margin), bundle.size()});
+    add(point_area(light, *middle, bundle, margin), bundle, areas);
     return;
   }
   Bundle sides[6];
   for (const Sight& sight : bundle) sides[side_of(sight.origin - light)].push_back(sight);
   for (int side = 0; side < 6; ++side)
     if (sides[side].size() >= least_rays)
-      areas.push_back({point_area(light, axis_of_side(side), sides[side], margin), sides[side].size()});
+      add(point_area(light, axis_of_side(side), sides[side], margin), sides[side], areas);
 }
 
 }  // namespace
@@ -200,7 +207,7 @@ FoundAreas find_areas(std::span<const intersect::Ray> rays, const Vec3& lower, c
     Bundle bundle, others;
     for (const Sight& sight : left) (agrees(*light, sight, least_cosine) ? bundle : others).push_back(sight);
     if (light->kind == AreaKind::Plane)
-      found.areas.push_back({plane_area(light->place, bundle, options.margin), bundle.size()});
+      add(plane_area(light->place, bundle, options.margin), bundle, found.areas);
     else
       add_point_areas(light->place, bundle, least_rays, options.margin, found.areas);
     left = std::move(others);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "model/accel/build_by.h"
+#include "model/accel/mesh_check.h"
 #include "model/base/parallel.h"
 #include "model/influence/projected_area.h"
 
@@ -40,7 +41,10 @@ std::string to_string(const TreeHeuristic& heuristic) {
   const char* const axes = heuristic.axes == TreeAxes::All       ? "all axes"
                            : heuristic.axes == TreeAxes::Longest ? "LSPH"
                                                                  : "SPFH";
-  return fmt::format("{} + {}", axes, heuristic.cost == TreeCost::SurfaceArea ? "SAH" : "PAH");
+  const char* const cost = heuristic.cost == TreeCost::SurfaceArea     ? "SAH"
+                           : heuristic.cost == TreeCost::ProjectedArea ? "PAH"
+                                                                       : "mixed";
+  return fmt::format("{} + {}", axes, cost);
 }
 
 std::vector<std::uint32_t> triangles_in(const scene::Mesh& mesh, const PreparedArea& area, int threads) {
@@ -61,7 +65,14 @@ accel::Bvh4 build_for(const scene::Mesh& mesh, const InfluenceArea& area, const 
                       const accel::BuildOptions& options) {
   if (heuristic.cost == TreeCost::SurfaceArea)
     return build_with(mesh, area, heuristic, options, [](float) { return accel::SurfaceArea{}; });
-  return build_with(mesh, area, heuristic, options, [&](float scale) { return ProjectedArea(area, scale); });
+  if (heuristic.cost == TreeCost::ProjectedArea)
+    return build_with(mesh, area, heuristic, options, [&](float scale) { return ProjectedArea(area, scale); });
+  const accel::Box3 bounds = accel::checked_bounds(mesh, options.threads);
+  return build_with(mesh, area, heuristic, options, [&](float scale) {
+    const __m128 factor = _mm_set1_ps(scale);
+    const accel::Box3 root{_mm_mul_ps(bounds.lower, factor), _mm_mul_ps(bounds.upper, factor)};
+    return MixedArea(ProjectedArea(area, scale), heuristic.surface_part, accel::half_area(root));
+  });
 }
 
 accel::Bvh4 build_for(const scene::Mesh& mesh, const std::vector<std::uint32_t>& triangles, const InfluenceArea& area,

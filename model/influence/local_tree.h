@@ -12,7 +12,7 @@
 namespace ctu::influence {
 
 /// What a box costs.
-enum class TreeCost : std::uint8_t { SurfaceArea, ProjectedArea };
+enum class TreeCost : std::uint8_t { SurfaceArea, ProjectedArea, Mixed };
 /// Which axes a node is cut across.
 enum class TreeAxes : std::uint8_t { All, Longest, LeastFacing };
 
@@ -20,7 +20,11 @@ struct TreeHeuristic {
   TreeCost cost = TreeCost::SurfaceArea;
   TreeAxes axes = TreeAxes::LeastFacing;
   FacingThresholds thresholds = kStrictThresholds;
+  double surface_part = 0.25;  ///< of TreeCost::Mixed
 };
+/// What local trees are built by: of all that were compared, the cheapest to traverse (docs/results.md).
+inline constexpr TreeHeuristic kLocalHeuristic{TreeCost::Mixed, TreeAxes::All};
+
 /// "SPFH + SAH" and so on, as the paper names them.
 std::string to_string(const TreeHeuristic& heuristic);
 

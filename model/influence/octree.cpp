@@ -6,8 +6,8 @@
 namespace ctu::influence {
 namespace {
 
-/// Where a cell is cut: a number of [lower, upper]. Looking up and dividing agree on it to the bit.
-float middle(float lower, float upper) { return lower + 0.5f * (upper - lower); }
+/// Where a cell is cut. Looking up and dividing agree on it to the bit; it does not overflow.
+float middle(float lower, float upper) { return 0.5f * lower + 0.5f * upper; }
 
 }  // namespace
 

@@ -13,8 +13,18 @@ constexpr double kNearestShare = 1e-6;
 constexpr int kEdges[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
                                {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 
-bool fits(const ConvexPolygon& polygon, double half_x, double half_y) {
-  for (const Point2& p : polygon.vertices())
+constexpr int kFaces[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
+
+/// The area of the shadow of a box without its outline: faces turned to the light cover it once, the others once more.
+double shadow_area(const Point2 (&p)[8]) {
+  double both = 0;
+  for (const auto& [a, b, c, d] : kFaces)
+    both += std::fabs((p[c].x - p[a].x) * (p[d].y - p[b].y) - (p[d].x - p[b].x) * (p[c].y - p[a].y));
+  return 0.25 * both;
+}
+
+bool fits(std::span<const Point2> points, double half_x, double half_y) {
+  for (const Point2& p : points)
     if (std::fabs(p.x) > half_x || std::fabs(p.y) > half_y) return false;
   return true;
 }
@@ -71,9 +81,14 @@ double ProjectedArea::share(const float* lower, const float* upper) const {
     farthest = std::max(farthest, corner[i].z);
   }
   if (farthest < near_ || nearest > far_) return 0;
+  const double whole = 4 * half_x_ * half_y_;
+  if (nearest >= near_ && farthest <= far_) {
+    Point2 points[8];
+    for (int i = 0; i < 8; ++i) points[i] = project(corner[i]);
+    if (fits(points, half_x_, half_y_)) return shadow_area(points) / whole;
+  }
   const ConvexPolygon polygon = shadow(corner, nearest, farthest);
-  const double covered = fits(polygon, half_x_, half_y_) ? area(polygon) : area(overlap(polygon, cross_section_));
-  return covered / (4 * half_x_ * half_y_);
+  return area(overlap(polygon, cross_section_)) / whole;
 }
 
 double ProjectedArea::share(const Vec3& lower, const Vec3& upper) const {

@@ -33,4 +33,24 @@ class ProjectedArea {
   ConvexPolygon cross_section_;
 };
 
+/// The projected area with a part of the surface area. Where sibling boxes cover each other for the rays, every cut has
+/// the same projected cost, and PAH alone takes any: it peels off a few triangles and the tree leans. There the surface
+/// area decides; and for the rays that are not quite affine it counts what PAH thinks free, a box seen edge-on.
+class MixedArea {
+ public:
+  /// `part` of the surface area, 0 to 1, where the tree's box has `root_half_area` in scaled coordinates.
+  MixedArea(const ProjectedArea& projected, double part, double root_half_area)
+      : projected_(projected),
+        projected_part_(static_cast<float>(1 - part)),
+        surface_part_(root_half_area > 0 ? static_cast<float>(part / root_half_area) : 0) {}
+
+  float operator()(const accel::Box3& box) const {
+    return projected_part_ * projected_(box) + surface_part_ * accel::half_area(box);
+  }
+
+ private:
+  ProjectedArea projected_;
+  float projected_part_, surface_part_;
+};
+
 }  // namespace ctu::influence

@@ -12,7 +12,7 @@
 namespace ctu::influence {
 
 struct TreeSetOptions {
-  TreeHeuristic local;
+  TreeHeuristic local = kLocalHeuristic;
   accel::BuildOptions build;     ///< of all trees
   double tolerance_degrees = 5;  ///< between an affine ray and the rays of its area, 0 to 90
   int octree_levels = kOctreeLevels;

@@ -33,6 +33,8 @@ class SelectingTraversal {
  public:
   /// `trees` must outlive this.
   explicit SelectingTraversal(const influence::TreeSet& trees);
+  SelectingTraversal(const SelectingTraversal&) = delete;
+  SelectingTraversal& operator=(const SelectingTraversal&) = delete;
 
   /// The ray's hit: what the global tree alone answers, up to triangles that only the rounded triangle test accepts and
   /// to which of several hits an any-hit ray finds first.

@@ -5,10 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "sim/paper/markdown_table.h"
+
 namespace ctu::sim::paper {
 namespace {
 
-using Cells = std::vector<std::string>;
+using Table = MarkdownTable;
 
 constexpr Column kRatioColumns[] = {
     Column::Ideal,          Column::Lut,        Column::LutDouble, Column::CompressedPaper, Column::CompressedSummed,
@@ -42,26 +44,6 @@ const char* title(Column column) {
   }
   return "";
 }
-
-/// A Markdown table: `texts` columns of text, then numbers.
-class Table {
- public:
-  Table(const Cells& titles, std::size_t texts) {
-    add(titles);
-    Cells rule;
-    for (std::size_t i = 0; i < titles.size(); ++i) rule.push_back(i < texts ? "---" : "---:");
-    add(rule);
-  }
-  void add(const Cells& cells) {
-    text_ += "|";
-    for (const std::string& cell : cells) text_ += " " + cell + " |";
-    text_ += "\n";
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
 
 std::string percent(double value) { return fmt::format("{:.1f} %", value); }
 /// With three digits, or all before the point.
