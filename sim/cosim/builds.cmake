@@ -13,12 +13,16 @@ ctu_rtl_build(comparators ALL DESIGN comparators UNITS 4 LOCATE_LATENCY 12 RAY_S
 
 # Tables behind a cache: numbered masks of reachable keys, in two rounds and the shortest lines.
 ctu_rtl_build(dedup-cached ALL DESIGN dedup ROWS reachable DISTINCT 226 TABLE_CACHE 1 TABLE_PORTS 2 LINE_BYTES 32
-  SLOT_BITS 3 MAX_SETS 16 MAX_WAYS 4 STACK_ENTRIES 16 MASK_LATENCY 1 LEAF_PORTS 2 TRIANGLE_LATENCY 30)
+  SLOT_BITS 3 MAX_SETS 16 MAX_WAYS 4 STACK_ENTRIES 16 MASK_LATENCY 1 LEAF_PORTS 2 TRIANGLE_LATENCY 30 COVERAGE line)
+# The other kinds of rows behind a cache: three short ones for a key, and one long one.
+ctu_rtl_build(projection-cached TABLE_CACHE 1 LINE_BYTES 64 SLOT_BITS 3 MAX_SETS 32 MAX_WAYS 4 MASK_LATENCY 3)
+ctu_rtl_build(bit-table-cached DESIGN bit-table ENTRIES 64 TABLE_CACHE 1 TABLE_PORTS 4 SLOT_BITS 2 MAX_SETS 16 MAX_WAYS 2
+  UNITS 2)
 
 ctu_rtl_build(mask-lut-256 DESIGN mask-lut ENTRIES 256 BANKS 1)
 ctu_rtl_build(projection-r6 R 6 R_RAY 6 PROJECTION_TABLES 1 BANKS 8)
 ctu_rtl_build(projection-r-ray-8 R_RAY 8 UNITS 4 PORTS 4)
-ctu_rtl_build(boxes-8 BOX_BITS 8 SLOT_BITS 6)
+ctu_rtl_build(boxes-8 BOX_BITS 8 SLOT_BITS 6 COVERAGE line)
 ctu_rtl_build(boxes-16 BOX_BITS 16 DECODE_LATENCY 1 DESIGN comparators ENTRIES 64 UNITS 2 LOCATE_LATENCY 8 BOX_LATENCY 4
   NODE_PORTS 2)
 ctu_rtl_build(comparators-r6 DESIGN comparators R 6 R_RAY 6 ENTRIES 64 LOCATE_LATENCY 3)

@@ -80,6 +80,20 @@ const std::vector<GridConfig>& grid_configs() {
        "unit.contexts=7 node_cache.bytes=1024 leaf_cache.bytes=1024 table_cache.bytes=128 table_cache.ways=4 "
        "table_cache.hit_latency=1 stack.spill_batch=1 memory.model=ideal memory.latency=1 memory.interval=1",
        0},
+      {"projection-cached",
+       "unit.contexts=8 node_cache.bytes=2048 leaf_cache.bytes=2048 table_cache.bytes=1024 table_cache.ways=2", 0},
+      {"projection-cached",
+       "unit.contexts=5 node_cache.bytes=2048 leaf_cache.bytes=2048 table_cache.bytes=64 table_cache.ways=1 "
+       "table_cache.mshrs=1 stack.entries=2 stack.spill_batch=2 memory.model=ideal memory.latency=30 memory.interval=1",
+       53},
+      {"bit-table-cached",
+       "unit.contexts=4 node_cache.bytes=1024 node_cache.ways=2 leaf_cache.bytes=1024 leaf_cache.ways=2 "
+       "table_cache.bytes=1024 table_cache.ways=2",
+       0},
+      {"bit-table-cached",
+       "unit.contexts=3 node_cache.bytes=1024 node_cache.ways=1 leaf_cache.bytes=1024 leaf_cache.ways=2 "
+       "table_cache.bytes=256 table_cache.ways=1 table_cache.mshrs=2 table_cache.hit_latency=5",
+       54},
       {"comparators", "", 0, true},
       {"comparators", "unit.contexts=13 node_cache.bytes=256 node_cache.ways=1", 41},
       {"comparators-r6", "", 0},
