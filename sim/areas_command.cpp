@@ -1,15 +1,12 @@
 // `ctusim trace areas`: the influence areas of the lights that a recorded trace's rays run to, found from the rays
 // alone, and what local trees for them would save.
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "model/base/error.h"
 #include "model/influence/find_areas.h"
-#include "model/reference/selecting_traversal.h"
 #include "sim/commands.h"
-#include "sim/hit_judge.h"
 #include "sim/loaded_trace.h"
+#include "sim/selection_survey.h"
 
 namespace ctu::sim {
 namespace {
@@ -36,19 +33,11 @@ scene::Mesh mesh_of(const LoadedTrace& trace, const std::string& path) {
   return mesh;
 }
 
-struct RecordedRays {
+std::vector<intersect::Ray> rays_of(const LoadedTrace& trace) {
   std::vector<intersect::Ray> rays;
-  std::vector<intersect::Hit> hits;
-};
-
-RecordedRays rays_of(const LoadedTrace& trace) {
-  RecordedRays recorded;
   traces::TraceFeed feed(trace.reader(), {});
-  while (const auto block = feed.next()) {
-    recorded.rays.insert(recorded.rays.end(), block->rays.begin(), block->rays.end());
-    recorded.hits.insert(recorded.hits.end(), block->expected.begin(), block->expected.end());
-  }
-  return recorded;
+  while (const auto block = feed.next()) rays.insert(rays.end(), block->rays.begin(), block->rays.end());
+  return rays;
 }
 
 void print_areas(const influence::FoundAreas& found, const influence::TreeSet& trees) {
@@ -63,48 +52,26 @@ void print_areas(const influence::FoundAreas& found, const influence::TreeSet& t
   }
 }
 
-/// Any hit answers an any-hit ray.
-bool same_answer(const intersect::Ray& ray, const intersect::Hit& a, const intersect::Hit& b) {
-  if (ray.kind == intersect::RayKind::ClosestHit) return same_bits(a, b);
-  return (a.primitive == intersect::kNoPrimitive) == (b.primitive == intersect::kNoPrimitive);
-}
-
 }  // namespace
 
 int trace_areas_command(const TraceArgs& args) {
   const LoadedTrace trace(args.trace);
-  const RecordedRays recorded = rays_of(trace);
+  const std::vector<intersect::Ray> rays = rays_of(trace);
   const accel::Bvh4& bvh = trace.bvh();
-  const influence::FoundAreas found = influence::find_areas(recorded.rays, bvh.lower, bvh.upper);
+  const influence::FoundAreas found = influence::find_areas(rays, bvh.lower, bvh.upper);
   influence::TreeSetOptions options;
   options.build = trace.reader().manifest().build;
   const scene::Mesh mesh = mesh_of(trace, args.trace);
   const influence::TreeSet trees(mesh, bvh, found.list(), options);
   print_areas(found, trees);
 
-  const cull::MaskTester no_culling(cull::Design::None, {});
-  const reference::Traversal global(bvh, nullptr, no_culling);
-  const reference::SelectingTraversal selecting(trees);
-  reference::SelectionRecord record;
-  reference::StepList alone;
-  const HitJudge judge(mesh);
-  std::uint64_t changed = 0, lost = 0;
-  for (std::size_t i = 0; i < recorded.rays.size(); ++i) {
-    const intersect::Ray& ray = recorded.rays[i];
-    global.trace(ray, &alone);
-    const intersect::Hit hit = selecting.trace(ray, &record);
-    if (same_answer(ray, hit, recorded.hits[i])) continue;
-    ++changed;
-    lost += judge.judge(ray, recorded.hits[i], hit) == Verdict::Lost ? 1 : 0;
-  }
-  const std::uint64_t work = record.local_counts().intersections() + record.global_counts().intersections();
-  const double rays = static_cast<double>(std::max<std::uint64_t>(record.rays, 1));
-  fmt::print("{} rays: {} affine, {} with their answer in a local tree\n", record.rays, record.affine, record.final);
+  const SelectionSurvey survey = survey_selection(mesh, trees, rays);
+  fmt::print("{} rays: {} affine, {} with their answer in a local tree\n", survey.record.rays, survey.record.affine,
+             survey.record.final);
   fmt::print("tests/ray: {:.2f} in the global tree alone, {:.2f} with local trees first; {:.2f} times its memory\n",
-             reference::count_steps(alone, 0, alone.rays()).intersections_per_ray(), double(work) / rays,
-             trees.memory_ratio());
-  fmt::print("answers that differ from the recorded ones: {}; lost hits: {}\n", changed, lost);
-  return lost == 0 ? 0 : 1;
+             survey.alone.intersections_per_ray(), survey.selecting_cost(), trees.memory_ratio());
+  fmt::print("answers that differ from those of the global tree: {}; lost hits: {}\n", survey.changed, survey.lost);
+  return survey.lost == 0 ? 0 : 1;
 }
 
 }  // namespace ctu::sim

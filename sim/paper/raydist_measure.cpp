@@ -5,9 +5,9 @@
 
 #include "model/accel/statistics.h"
 #include "model/influence/projected_area.h"
-#include "model/reference/selecting_traversal.h"
+#include "model/reference/traversal.h"
 #include "model/scene/random.h"
-#include "sim/hit_judge.h"
+#include "sim/selection_survey.h"
 #include "sim/stopwatch.h"
 #include "traces/ray_generator.h"
 
@@ -129,32 +129,17 @@ Rays rays_in(const influence::PreparedArea& area, const Rays& rays, double least
 }
 
 SelectionResult measure_selection(const scene::Scene& scene, const influence::TreeSet& trees, const Rays& shadow) {
+  const SelectionSurvey survey = survey_selection(scene.mesh, trees, shadow);
   SelectionResult result;
-  const cull::MaskTester no_culling(cull::Design::None, {});
-  const reference::Traversal global(trees.global(), nullptr, no_culling);
-  const reference::SelectingTraversal selecting(trees);
-  const HitJudge judge(scene.mesh);
-  reference::SelectionRecord record;
-  reference::StepList alone;
-  for (const Ray& ray : shadow) {
-    global.trace(ray, &alone);
-    selecting.trace(ray, &record);
-    Ray closest = ray;
-    closest.kind = intersect::RayKind::ClosestHit;
-    const Hit without = global.trace(closest), with = selecting.trace(closest);
-    if (same_bits(without, with)) continue;
-    ++result.changed;
-    result.lost += judge.judge(closest, without, with) == Verdict::Lost ? 1 : 0;
-  }
-  result.rays = record.rays;
-  result.affine = record.affine;
-  result.final = record.final;
-  result.global_cost = reference::count_steps(alone, 0, alone.rays()).intersections_per_ray();
-  const reference::Counts local = record.local_counts();
-  result.local_cost = local.intersections_per_ray();
-  result.selecting_cost = double(local.intersections() + record.global_counts().intersections()) /
-                          double(std::max<std::uint64_t>(record.rays, 1));
+  result.rays = survey.record.rays;
+  result.affine = survey.record.affine;
+  result.final = survey.record.final;
+  result.global_cost = survey.alone.intersections_per_ray();
+  result.local_cost = survey.record.local_counts().intersections_per_ray();
+  result.selecting_cost = survey.selecting_cost();
   result.memory_ratio = trees.memory_ratio();
+  result.changed = survey.changed;
+  result.lost = survey.lost;
   return result;
 }
 

@@ -92,7 +92,7 @@ TEST(TraceAreasCommand, finds_the_light_of_a_recorded_trace_and_changes_no_answe
   const test::Outcome outcome = test::run_program(folder.path(), "trace areas t.ctut");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("  point near "), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.out.find("recorded ones: 0; lost hits: 0"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("global tree: 0; lost hits: 0"), std::string::npos) << outcome.out;
   EXPECT_EQ(test::run_program(folder.path(), "trace areas nowhere.ctut").exit_code, 2);
 }
 
