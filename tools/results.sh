@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md and docs/numerics.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper variants compression precision tables designs area numerics; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper variants compression precision tables designs area numerics raydist; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants compression precision tables designs area numerics)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants compression precision tables designs area numerics raydist)
 
 page=docs/results.md
 plots=docs/plots
@@ -318,10 +318,18 @@ numerics() {
   put numerics
 }
 
+raydist() {
+  local scenes=("gen:hair-ball?strands=500" "gen:curly-hair?strands=200" "gen:straight-hair?strands=500" gen:tilted-quads
+                gen:foliage gen:tetra) name
+  for name in bunny sponza; do if listed "$name"; then scenes+=("$name"); fi; done
+  keep raydist "$program" paper raydist --index "$index" "${scenes[@]}"
+  put raydist
+}
+
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | variants | designs | tables | compression | precision | area | numerics) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, variants, designs, tables, compression, precision, area or numerics" >&2; exit 2 ;;
+    culling | auto | paper | variants | designs | tables | compression | precision | area | numerics | raydist) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, variants, designs, tables, compression, precision, area, numerics or raydist" >&2; exit 2 ;;
   esac
 done
 exit "$failed"
