@@ -22,7 +22,7 @@ struct TreeHeuristic {
   FacingThresholds thresholds = kStrictThresholds;
   double surface_part = 0.25;  ///< of TreeCost::Mixed
 };
-/// What local trees are built by: within 1.5 % of the cheapest to traverse that was compared, and more level
+/// What local trees are built by: within 1.5 points of the cheapest to traverse that was compared, and more level
 /// (docs/results.md).
 inline constexpr TreeHeuristic kLocalHeuristic{TreeCost::Mixed, TreeAxes::All};
 
