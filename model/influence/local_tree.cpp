@@ -16,7 +16,8 @@ template <class Chance, class Axes>
 accel::Bvh4 build_with(const scene::Mesh& mesh, const accel::BuildOptions& options, const Chance& chance_at,
                        const Axes& axes_at) {
   return accel::build_by(mesh, options, [&](float scale) {
-    return accel::SplitHeuristic{chance_at(scale), axes_at(scale)};
+    using Heuristic = accel::SplitHeuristic<decltype(chance_at(scale)), decltype(axes_at(scale))>;
+    return Heuristic{chance_at(scale), axes_at(scale)};
   });
 }
 

@@ -111,8 +111,8 @@ void expect_same_answer(const scene::Scene& scene, const Plain& plain, const ref
   ASSERT_EQ(expected.primitive == intersect::kNoPrimitive, found.primitive == intersect::kNoPrimitive);
   if (found.primitive == intersect::kNoPrimitive) return;
   const auto& [a, b, c] = scene.mesh.triangles[found.primitive];
-  const auto own = intersect::triangle_test(intersect::prepare_ray(ray), scene.mesh.vertices[a],
-                                            scene.mesh.vertices[b], scene.mesh.vertices[c], ray.tmax);
+  const auto own = intersect::triangle_test(intersect::prepare_ray(ray), scene.mesh.vertices[a], scene.mesh.vertices[b],
+                                            scene.mesh.vertices[c], ray.tmax);
   EXPECT_TRUE(own.hit && intersect::same_bits(found, {own.t, own.u, own.v, found.primitive}));
 }
 
