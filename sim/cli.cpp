@@ -91,6 +91,7 @@ struct Parsed {
   TablesArgs tables;
   AreaArgs area;
   PaperArgs paper, paper_raydist;
+  PaperPacketsArgs paper_packets;
   TraceArgs trace;
   UnitArgs config;
   bool config_plain = false;
@@ -293,10 +294,40 @@ void add_paper_raydist(CLI::App& paper, Parsed& parsed) {
   command->callback([&] { parsed.exit_code = paper_raydist_command(args); });
 }
 
+void add_paper_packets(CLI::App& paper, Parsed& parsed) {
+  auto* command = paper.add_subcommand(
+      "packets", "packet culling: what each method finds of what all rays of a packet miss, as Markdown tables");
+  PaperPacketsArgs& args = parsed.paper_packets;
+  SceneArgs& scene = args.scene;
+  scene.rays = "all";
+  scene.size = "1920x1080";
+  command->add_option("scene", scene.scenes, "scenes: names of the index, files or generated ones; none: all");
+  add_index_option(*command, scene);
+  command->add_option("--rays", scene.rays, "all, or one of primary, diffuse, shadow, ao and random")
+      ->capture_default_str();
+  command->add_option("--size", scene.size, "picture size in pixels, WxH")->capture_default_str();
+  command->add_option("--sample", args.sample, "rays of each kind, about so many of the picture's; 0: all")
+      ->capture_default_str();
+  command->add_option("--packet", args.size, "rays of a packet, 4 to 64")->capture_default_str();
+  command->add_option("--window", args.window, "consecutive rays that packets are formed from")->capture_default_str();
+  command->add_option("--forming", args.forming, "order, direction or origin: how the window is sorted")
+      ->capture_default_str();
+  command->add_option("--least", args.least_rays, "rays at one place that are asked about together; fewer go on alone")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--bounces", scene.bounces, "diffuse bounces after the primary ray, at most")
+      ->capture_default_str();
+  command->add_option("--seed", scene.seed, "seed of every random number")->capture_default_str();
+  command->add_option("--leaf", scene.leaf_triangles, "triangles in a leaf, at most")->capture_default_str();
+  command->add_option("--threads", scene.threads, "0: one for each core")->capture_default_str();
+  command->callback([&] { parsed.exit_code = paper_packets_command(args); });
+}
+
 void add_paper(CLI::App& app, Parsed& parsed) {
   auto* command =
       app.add_subcommand("paper", "the evaluation of a paper with our scenes, published values beside ours");
   command->require_subcommand(1);
+  add_paper_packets(*command, parsed);
   auto* subspace = command->add_subcommand(
       "subspace", "subspace culling: Tables 1 to 3 and Fig. 8 as Markdown, plots and their data in --out");
   PaperArgs& args = parsed.paper;

@@ -145,6 +145,14 @@ struct PaperArgs {
   std::string output = "paper-subspace";  ///< folder
 };
 
+struct PaperPacketsArgs {
+  SceneArgs scene;              ///< `rays` also "all"
+  std::uint64_t sample = 8192;  ///< rays of each kind, about so many; 0: all
+  int size = 16, window = 256;  ///< rays of a packet, and that packets are formed from
+  std::string forming = "origin";
+  int least_rays = 4;  ///< at one place; fewer go on alone
+};
+
 struct TraceArgs {
   std::string trace;
   std::string output;  ///< slice
@@ -188,6 +196,7 @@ int compression_command(const CompressionArgs& args);
 int heatmap_command(const HeatmapArgs& args);
 int tables_command(const TablesArgs& args);
 int area_command(const AreaArgs& args);
+int paper_packets_command(const PaperPacketsArgs& args);
 int paper_subspace_command(const PaperArgs& args);
 int paper_raydist_command(const PaperArgs& args);
 int trace_info_command(const TraceArgs& args);

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md and docs/numerics.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper variants compression precision tables designs area numerics raydist; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper packets variants compression precision tables designs area numerics raydist; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper variants compression precision tables designs area numerics raydist)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets variants compression precision tables designs area numerics raydist)
 
 page=docs/results.md
 plots=docs/plots
@@ -72,6 +72,11 @@ compressed_variant() {  # LABEL SCENE OPTION...
     cells+=$(awk -F'|' 'NR == 3 { exact = $10 + 0 } NR > 3 { printf " %+.1f |", $10 - exact }' "$scratch/row")
   done
   echo "$cells"
+}
+
+packets() {
+  keep packets "$program" paper packets --index "$index" --sample 2048
+  put packets
 }
 
 # Whether the index has the scene.
@@ -328,8 +333,8 @@ raydist() {
 
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | variants | designs | tables | compression | precision | area | numerics | raydist) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, variants, designs, tables, compression, precision, area, numerics or raydist" >&2; exit 2 ;;
+    culling | auto | paper | packets | variants | designs | tables | compression | precision | area | numerics | raydist) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, packets, variants, designs, tables, compression, precision, area, numerics or raydist" >&2; exit 2 ;;
   esac
 done
 exit "$failed"

@@ -153,6 +153,9 @@ class PacketWalk {
             asking.all_miss(box_of(node, lane), counts_.box_questions, counts_.box_misses))
           culled |= 1u << lane;
     }
+    const auto boxes = static_cast<std::uint64_t>(std::popcount(children & ~culled));
+    counts_.box_tests += boxes * group.members.size();
+    counts_.saved_box_tests += static_cast<std::uint64_t>(std::popcount(culled)) * group.members.size();
     if (culled == children) {
       counts_.saved_node_tests += group.members.size();
       return;
@@ -294,6 +297,8 @@ PacketCounts& PacketCounts::operator+=(const PacketCounts& other) {
   alone_triangle_tests += other.alone_triangle_tests;
   saved_node_tests += other.saved_node_tests;
   saved_triangle_tests += other.saved_triangle_tests;
+  box_tests += other.box_tests;
+  saved_box_tests += other.saved_box_tests;
   return *this;
 }
 

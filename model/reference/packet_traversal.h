@@ -39,6 +39,7 @@ struct PacketCounts {
   std::uint64_t node_tests = 0, triangle_tests = 0;              ///< by single rays
   std::uint64_t alone_node_tests = 0, alone_triangle_tests = 0;  ///< of these, by rays that have left their packet
   std::uint64_t saved_node_tests = 0, saved_triangle_tests = 0;  ///< of rays for which a packet was asked
+  std::uint64_t box_tests = 0, saved_box_tests = 0;  ///< the same of single boxes: a node's that were (not) dropped
 
   std::uint64_t questions() const { return box_questions + triangle_questions; }
   std::uint64_t tests() const { return node_tests + triangle_tests; }

@@ -135,6 +135,7 @@ TEST(PacketTraversal, a_ray_asks_for_each_test_once_itself_or_through_its_packet
     EXPECT_EQ(counts.node_tests + counts.saved_node_tests, single.node_visits);
     EXPECT_EQ(counts.triangle_tests + counts.saved_triangle_tests, single.triangle_tests);
     EXPECT_GT(counts.saved_triangle_tests, 0u);
+    EXPECT_GT(counts.saved_box_tests, counts.saved_node_tests);
     EXPECT_LE(counts.alone_node_tests, counts.node_tests);
     EXPECT_LE(counts.box_misses, counts.box_questions);
   }

@@ -112,6 +112,11 @@ Interval AffineBounds::advance_of(const IntervalVector& place) const {
   return (backward_ ? -place[axis_] : place[axis_]) - Interval::point(back_);
 }
 
+/// When rays may be between two faces: of use where all go the same way along the axis.
+Interval AffineBounds::advance_within(int axis, const Interval& extent) const {
+  return (extent - origin_[axis].range()) / direction_[axis].range();
+}
+
 /// Beyond a face at both ends of a stretch, a ray is beyond it all the way.
 bool AffineBounds::stays_beyond(int axis, const Interval& extent, const Interval& advance) const {
   if (!std::isfinite(advance.lo)) return false;
@@ -143,12 +148,13 @@ bool AffineBounds::passes_beside(int axis, const IntervalVector& lower, const In
 Answer AffineBounds::test(const Box& box, const Reach& reach) const {
   const IntervalVector lower = difference(box.lo, reference_), upper = difference(box.hi, reference_);
   Interval advance{extent_.begin, end_within(reach)};
-  if (axis_ >= 0) advance = overlap(advance, advance_of(unite(lower, upper)));
-  if (advance.empty()) return Answer::AllMiss;
+  const IntervalVector extent = unite(lower, upper);
   for (int axis = 0; axis < 3; ++axis) {
-    if (axis == axis_) continue;
-    if (stays_beyond(axis, {lower[axis].lo, upper[axis].hi}, advance)) return Answer::AllMiss;
+    advance = overlap(advance, axis == axis_ ? advance_of(extent) : advance_within(axis, extent[axis]));
+    if (advance.empty()) return Answer::AllMiss;
   }
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != axis_ && stays_beyond(axis, extent[axis], advance)) return Answer::AllMiss;
   for (int axis = 0; axis < 3; ++axis) {
     if (axis_ >= 0 && axis != axis_) continue;  // its edges are those of the faces that were just asked
     if (passes_beside(axis, lower, upper)) return Answer::AllMiss;

@@ -17,13 +17,16 @@ class AffineBounds {
   /// `lines` as of Scale::MajorAxis.
   explicit AffineBounds(const Lines& lines);
 
-  /// Whether all rays stay beyond one face while they are within the box's reach along the major axis, or pass an edge
-  /// of the box on the same side, as seen along an axis.
+  /// Whether all rays stay beyond one face while they are within the box's reach along other axes, or pass an edge of
+  /// the box on the same side, as seen along an axis.
   Answer test(const Box& box, const Reach& reach = {}) const;
   /// The sides of triangle_sides.h, and the height over its plane where rays begin and end.
   Answer test(const Triangle& triangle, const Reach& reach = {}) const;
   /// The discriminant as r^2 V.V - |OC x V|^2, and whether rays begin beyond the sphere or end before it.
   Answer test(const Sphere& sphere, const Reach& reach = {}) const;
+
+  /// Where the lines' moments, origin x direction, may lie.
+  IntervalVector moments() const { return {moment_[0].range(), moment_[1].range(), moment_[2].range()}; }
 
  private:
   using Form = numeric::Affine<6>;
@@ -37,6 +40,7 @@ class AffineBounds {
   float end_within(const Reach& reach) const;
   Interval advance_of(const IntervalVector& place) const;
   Form place_at(int axis, float advance) const { return origin_[axis] + direction_[axis] * advance; }
+  Interval advance_within(int axis, const Interval& extent) const;
   bool stays_beyond(int axis, const Interval& extent, const Interval& advance) const;
   bool passes_beside(int axis, const IntervalVector& lower, const IntervalVector& upper) const;
   bool all_meet(const IntervalVector& lower, const IntervalVector& upper) const;

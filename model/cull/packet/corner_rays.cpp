@@ -37,11 +37,11 @@ struct Agreement {
 struct TriangleAgreement {
   Agreement side[3], rest[3];              ///< as in triangle_sides.h
   Agreement facing;                        ///< direction . normal
-  Agreement height;                        ///< (vertex - origin) . normal: of facing's sign where the plane lies ahead
+  Agreement height;                        ///< (vertex - origin) . normal
   Interval advance = Interval::nothing();  ///< where the corner rays cross the plane
 
-  /// The plane is crossed by all corner rays, ahead of the back plane.
-  bool cuts() const { return (facing.positive && height.not_negative) || (facing.negative && height.not_positive); }
+  /// The plane is crossed by all four lines, in one sense.
+  bool cuts() const { return facing.positive || facing.negative; }
   /// All rays begin on one side of the plane and do not go towards it.
   bool goes_away() const {
     return (height.negative && facing.not_negative) || (height.positive && facing.not_positive);

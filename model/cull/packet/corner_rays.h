@@ -1,10 +1,13 @@
 // Four virtual rays along the edges of a packet's frustum. At any one place along the major axis, every ray of the
 // packet lies in the rectangle between them.
 //
-// Triangles: where all four rise towards the triangle's plane from the same side of it, the frustum cuts the plane in
-// the quadrilateral between their four points, and all rays cross it there; so what all four points lie outside of, all
-// rays miss, and inside of, hit. Where some of the points lie behind the rays (t < 0), the cut is not between them
-// (Fig. 6): then nothing is concluded, unless all rays go away from the plane.
+// Triangles: where the four lines cross the triangle's plane in one sense, the frustum cuts the plane within the
+// quadrilateral between their four points. For its cut's corners are those points that lie ahead of the back plane, and
+// points of the back rectangle's edges. Two neighbouring lines and the edge between their begins lie in one plane, in
+// which they spread, so a cut that passes from one line to the other ahead of it through the edge comes to the other
+// line behind it: the point on the edge lies between the two on the lines. So what all four points lie outside of, all
+// rays miss, and inside of, hit if they get there. Where the senses differ, rays between two corner rays do not pass
+// between their points (Fig. 6, t < 0): then nothing is concluded, unless all rays go away from the plane.
 //
 // Boxes: across the major axis the frustum and the box are both rectangles, so they meet if and only if there is a
 // place along it at which these overlap; the corner rays say from where to where they do on either axis.

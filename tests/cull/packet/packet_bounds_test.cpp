@@ -97,7 +97,7 @@ TEST(PacketBounds, a_packet_that_goes_backward_is_bounded_as_its_mirror_image) {
 }
 
 // Fig. 6: the triangle's plane lies behind some corner rays; rays between them do not pass between their points.
-TEST(PacketBounds, corner_rays_conclude_nothing_where_the_plane_lies_behind_one_of_them) {
+TEST(PacketBounds, corner_rays_conclude_nothing_where_they_cross_the_plane_in_different_senses) {
   const std::vector<Ray> rays = {ray({0, 0, 0}, {1, -1, 0}), ray({0, 0, 0}, {1, 1, 0}), ray({0, 0, 0}, {1, 0.9f, 0})};
   // In the plane x = 4 y - 1: the line of the first ray meets it at x = -1/5, the others' at x = 1/3 and 0.38.
   const Triangle met{{{0.2f, 0.3f, -1}, {1.4f, 0.6f, -1}, {0.5f, 0.375f, 2}}};
