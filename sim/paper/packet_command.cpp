@@ -38,12 +38,31 @@ traces::RecordOptions rays_of(const SceneArgs& args, const std::string& kind) {
   return options;
 }
 
+/// Of a sample with many more rays than wanted (where few paths have any, their number is hard to guess), windows of
+/// consecutive rays from all over it.
+RaySample thinned(const RaySample& sample, std::size_t wanted, std::size_t window) {
+  const std::size_t windows = sample.rays.size() / window, kept = wanted / window;
+  if (kept == 0 || kept >= windows) return sample;
+  RaySample part;
+  for (std::size_t i = 0; i < kept; ++i) {
+    const auto first = static_cast<std::ptrdiff_t>(i * windows / kept * window),
+               last = first + static_cast<std::ptrdiff_t>(window);
+    part.rays.insert(part.rays.end(), sample.rays.begin() + first, sample.rays.begin() + last);
+    part.hits.insert(part.hits.end(), sample.hits.begin() + first, sample.hits.begin() + last);
+  }
+  return part;
+}
+
+/// A window's worth of consecutive rays from each of many parts of the picture; all rays where `rays` is 0.
 RaySample sample_of(const scene::Scene& scene, const accel::Bvh4& bvh, const traces::RecordOptions& options,
-                    std::uint64_t rays) {
+                    std::uint64_t rays, int window) {
   const cull::MaskTester none(cull::Design::None, {});
   const reference::Traversal alone(bvh, nullptr, none);
   const traces::RayGenerator generator(scene, options.rays);
-  return sample_rays(generator, alone, {.rays = rays}, options.threads);
+  if (rays == 0) return sample_rays(generator, alone, {}, options.threads);
+  const auto runs = static_cast<int>(std::clamp<std::uint64_t>(rays / static_cast<std::uint64_t>(window), 1, 1024));
+  const RaySample sample = sample_rays(generator, alone, {.rays = rays, .runs = runs}, options.threads);
+  return thinned(sample, rays, static_cast<std::size_t>(window));
 }
 
 void add_to_sweep(const scene::Scene& scene, const accel::Bvh4& bvh, const RaySample& sample,
@@ -90,7 +109,7 @@ int paper_packets_command(const PaperPacketsArgs& args) {
     if (!scene) continue;
     const accel::Bvh4 bvh = accel::build(scene->mesh, rays_of(scene_args, sweeps.front().rays).build);
     for (paper::PacketSweep& sweep : sweeps) {
-      const RaySample sample = sample_of(*scene, bvh, rays_of(scene_args, sweep.rays), args.sample);
+      const RaySample sample = sample_of(*scene, bvh, rays_of(scene_args, sweep.rays), args.sample, args.window);
       rows.push_back({listed.name, sweep.rays, measure_packets(*scene, bvh, sample, measure)});
       add_to_sweep(*scene, bvh, sample, measure, sweep);
       wrong += rows.back().result.wrong();
