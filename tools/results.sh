@@ -75,7 +75,9 @@ compressed_variant() {  # LABEL SCENE OPTION...
 }
 
 packets() {
-  keep packets "$program" paper packets --index "$index" --sample 2048
+  local scenes=(gen:hair-ball gen:curly-hair gen:straight-hair gen:tilted-quads gen:foliage gen:tetra) name
+  for name in bunny sponza kitchen; do if listed "$name"; then scenes+=("$name"); fi; done
+  keep packets "$program" paper packets --index "$index" --sample 2048 "${scenes[@]}"
   put packets
 }
 
