@@ -71,7 +71,7 @@ int metamorph_command(const MetamorphArgs& args) {
   std::vector<metamorph::NamedReport> reports;
   bool passed = true;
   for (const ListedScene& listed : listed_scenes(args.scene)) {
-    const std::optional<scene::Scene> scene = load_listed(args.scene, listed);
+    const std::optional<scene::Scene> scene = load_listed(args.scene, listed, Primitives::Triangles);
     if (!scene) continue;
     metamorph::NamedReport named{listed.name, {}};
     {

@@ -8,6 +8,7 @@
 #include "sim/loaded_trace.h"
 #include "sim/progress.h"
 #include "sim/scene_args.h"
+#include "sim/scene_list.h"
 #include "traces/recorder.h"
 #include "traces/slice.h"
 
@@ -136,6 +137,7 @@ int record_command(const RecordArgs& args) {
   const pipeline::UnitConfig config = load_config(args.unit.config_path, args.unit.sets);
   if (args.culling == "auto") require_possible(config.mask_test.design, options.masks);
   const scene::Scene scene = load_scene(args.scene, args.scene.scenes.front());
+  require_triangles(scene);
   traces::RecordSummary summary;
   {
     Progress bar("recording", 0, "paths");

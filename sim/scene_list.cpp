@@ -81,9 +81,18 @@ SceneArgs with_view(const SceneArgs& args, const ListedScene& listed) {
   return viewed;
 }
 
-std::optional<scene::Scene> load_listed(const SceneArgs& args, const ListedScene& listed) {
+void require_triangles(const scene::Scene& scene) {
+  if (!scene.mesh.spheres.empty())
+    throw Error(scene.name,
+                fmt::format("has {} spheres, for which the timed unit has no test", scene.mesh.spheres.size()),
+                "name a scene of triangles; `ctusim culling` and `ctusim paper raybox` trace spheres");
+}
+
+std::optional<scene::Scene> load_listed(const SceneArgs& args, const ListedScene& listed, Primitives primitives) {
   try {
-    return load_scene(with_view(args, listed), listed.path);
+    scene::Scene scene = load_scene(with_view(args, listed), listed.path);
+    if (primitives == Primitives::Triangles) require_triangles(scene);
+    return scene;
   } catch (const Error& error) {
     if (listed.named) throw;
     fmt::print(stderr, "{} is left out: {}\n", listed.name, error.what());

@@ -1,6 +1,7 @@
 // The scenes that results are made for: the generated ones, and those that an index file names.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,8 +25,16 @@ std::vector<ListedScene> listed_scenes(const SceneArgs& args);
 /// `args` with the view of a scene that has an inside worth seeing but no camera in its file, unless `args` has a view.
 SceneArgs with_view(const SceneArgs& args, const ListedScene& listed);
 
-/// Loads the scene with its view. Nothing, and a line on stderr, when it cannot be loaded and nobody named it.
-std::optional<scene::Scene> load_listed(const SceneArgs& args, const ListedScene& listed);
+/// What a command can trace: the timed unit and what checks it have no test for spheres.
+enum class Primitives : std::uint8_t { All, Triangles };
+
+/// Throws Error, naming the scene, when it has spheres.
+void require_triangles(const scene::Scene& scene);
+
+/// Loads the scene with its view. Nothing, and a line on stderr, when it cannot be loaded, or has other primitives than
+/// those, and nobody named it.
+std::optional<scene::Scene> load_listed(const SceneArgs& args, const ListedScene& listed,
+                                        Primitives primitives = Primitives::All);
 
 /// "a/bunny/bunny.ply.zst" -> "bunny"; "a/kitchen/scene.pbrt" -> "kitchen".
 std::string short_name(const std::string& path);

@@ -38,25 +38,36 @@ Pixel pixel_at(std::uint64_t index, const RayOptions& options) {
 
 double largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Where a secondary ray leaves a surface.
-struct Departure {
-  Vec3d point, normal;
-};
+/// The normal of the side that the ray came from.
+Vec3d toward_arrival(const Vec3d& normal, const Vec3d& backwards) {
+  return dot(normal, backwards) < 0 ? normal * -1 : normal;
+}
+
+Departure depart(const scene::Sphere& sphere, const Ray& arriving, const Hit& hit) {
+  const Vec3d centre = widen(sphere.centre);
+  const Vec3d at = widen(arriving.origin) + widen(arriving.direction) * static_cast<double>(hit.t);
+  const Vec3d backwards = normalized(widen(arriving.direction) * -1, {0, 0, 1});
+  const Vec3d outward = normalized(at - centre, backwards);
+  const Vec3d normal = toward_arrival(outward, backwards);
+  const double scale = largest(sphere.centre) + sphere.radius;
+  return {centre + outward * static_cast<double>(sphere.radius) + normal * (scale * 0x1p-19), normal};
+}
+
+}  // namespace
 
 Departure depart(const scene::Mesh& mesh, const Ray& arriving, const Hit& hit) {
+  if (hit.primitive >= mesh.triangles.size())
+    return depart(mesh.spheres[hit.primitive - mesh.triangles.size()], arriving, hit);
   const auto& corner = mesh.triangles[hit.primitive];
   const Vec3 corners[3] = {mesh.vertices[corner[0]], mesh.vertices[corner[1]], mesh.vertices[corner[2]]};
   const Vec3d v0 = widen(corners[0]), v1 = widen(corners[1]), v2 = widen(corners[2]);
   const double u = hit.u, v = hit.v;
   const Vec3d point = v0 * (1 - u - v) + v1 * u + v2 * v;
   const Vec3d backwards = normalized(widen(arriving.direction) * -1, {0, 0, 1});
-  Vec3d normal = normalized(cross(v1 - v0, v2 - v0), backwards);
-  if (dot(normal, backwards) < 0) normal = normal * -1;
+  const Vec3d normal = toward_arrival(normalized(cross(v1 - v0, v2 - v0), backwards), backwards);
   const double scale = std::max({largest(corners[0]), largest(corners[1]), largest(corners[2])});
   return {point + normal * (scale * 0x1p-19), normal};
 }
-
-}  // namespace
 
 RayGenerator::RayGenerator(const scene::Scene& scene, const RayOptions& options) : scene_(scene), options_(options) {
   check(options);

@@ -2,10 +2,10 @@
 // rays are the same for any number of threads and any cut into pieces.
 //
 // A path is one sample of one pixel (or one random line); its rays follow each other in the trace, and paths follow in
-// the order pixel, sample. Secondary rays start on the triangle at the recorded barycentric coordinates, moved along
-// the geometric normal, on the side that the arriving ray came from, by 2^-19 of the largest coordinate in sight (16
-// units in the last place): more than the rounding of the origin, so a ray never meets the triangle that it leaves.
-// tmin is 0.
+// the order pixel, sample. Secondary rays start on the triangle at the recorded barycentric coordinates, or on the
+// sphere nearest to the ray's point at the recorded t, moved along the geometric normal, on the side that the arriving
+// ray came from, by 2^-19 of the largest coordinate in sight (16 units in the last place): more than the rounding of
+// the origin, so a ray never meets the triangle or sphere that it leaves. tmin is 0.
 #pragma once
 
 #include <cstdint>
@@ -56,6 +56,12 @@ class RayGenerator {
   Vec3 light_;
   double diagonal_ = 0;
 };
+
+/// Where a secondary ray leaves a surface, and its normal there, of length 1 and on the side of the ray that arrived.
+struct Departure {
+  Vec3d point, normal;
+};
+Departure depart(const scene::Mesh& mesh, const intersect::Ray& arriving, const intersect::Hit& hit);
 
 /// The light of scenes for which none is given: over the centre of the box, as `up` of the camera is nearest to an
 /// axis, three quarters of the diagonal high when the camera stands outside; just under the top of the box when it

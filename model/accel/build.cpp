@@ -7,7 +7,9 @@
 
 #include "model/accel/build_by.h"
 #include "model/accel/collapse.h"
+#include "model/accel/leaf_record.h"
 #include "model/accel/mesh_check.h"
+#include "model/accel/node_box.h"
 #include "model/base/error.h"
 #include "model/base/parallel.h"
 
@@ -28,10 +30,10 @@ void check(const BuildOptions& o) {
                 "choose 1 for both, as the paper does");
 }
 
-void check_count(std::size_t triangles) {
-  if (triangles == 0) throw Error("mesh", "no triangle in it", "give a scene with at least one triangle");
-  if (triangles > kMaxTriangles)
-    throw Error("mesh", fmt::format("{} triangles", triangles),
+void check_count(std::size_t primitives) {
+  if (primitives == 0) throw Error("mesh", "no triangle in it", "give a scene with at least one triangle or sphere");
+  if (primitives > kMaxTriangles)
+    throw Error("mesh", fmt::format("{} triangles", primitives),
                 fmt::format("the unit's child references name at most {}", kMaxTriangles));
 }
 
@@ -54,12 +56,12 @@ float work_scale(const Box3& bounds) {
 }
 
 std::unique_ptr<TriangleRef[]> make_refs(const scene::Mesh& mesh, float scale, int threads) {
-  auto refs = std::make_unique_for_overwrite<TriangleRef[]>(mesh.triangles.size());
-  parallel_chunks(mesh.triangles.size(), kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
+  auto refs = std::make_unique_for_overwrite<TriangleRef[]>(mesh.primitives());
+  parallel_chunks(mesh.primitives(), kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
     const __m128 factor = _mm_set1_ps(scale);
     for (std::size_t i = first; i < last; ++i) {
-      Box3 box = Box3::empty();
-      for (const std::uint32_t corner : mesh.triangles[i]) box.grow(to_vector(mesh.vertices[corner]));
+      const LeafTriangle record = leaf_record(mesh, static_cast<std::uint32_t>(i));
+      Box3 box = box_of_triangles(&record, 1);
       box = {_mm_mul_ps(box.lower, factor), _mm_mul_ps(box.upper, factor)};
       refs[i] = TriangleRef::make(box, static_cast<std::uint32_t>(i));
     }
@@ -70,11 +72,7 @@ std::unique_ptr<TriangleRef[]> make_refs(const scene::Mesh& mesh, float scale, i
 std::vector<LeafTriangle> in_leaf_order(const scene::Mesh& mesh, std::span<const TriangleRef> refs, int threads) {
   std::vector<LeafTriangle> triangles(refs.size());
   parallel_chunks(refs.size(), kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const std::uint32_t id = refs[i].id();
-      const auto& corners = mesh.triangles[id];
-      triangles[i] = {mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]], id};
-    }
+    for (std::size_t i = first; i < last; ++i) triangles[i] = leaf_record(mesh, refs[i].id());
   });
   return triangles;
 }
@@ -83,17 +81,19 @@ std::vector<LeafTriangle> in_leaf_order(const scene::Mesh& mesh, std::span<const
 
 BuildInput build_input(const scene::Mesh& mesh, const BuildOptions& options) {
   check(options);
-  check_count(mesh.triangles.size());
+  check_count(mesh.primitives());
   BuildInput input;
   input.scale = work_scale(checked_bounds(mesh, options.threads));
   input.storage = make_refs(mesh, input.scale, options.threads);
-  input.refs = {input.storage.get(), mesh.triangles.size()};
+  input.refs = {input.storage.get(), mesh.primitives()};
   return input;
 }
 
 Bvh4 build_output(const scene::Mesh& mesh, const BuildOptions& options, const BuildInput& input,
                   std::span<const BinaryNode> tree) {
-  return collapse(tree, in_leaf_order(mesh, input.refs, options.threads), options);
+  Bvh4 bvh = collapse(tree, in_leaf_order(mesh, input.refs, options.threads), options);
+  bvh.spheres = static_cast<std::uint32_t>(mesh.spheres.size());
+  return bvh;
 }
 
 Bvh4 build(const scene::Mesh& mesh, const BuildOptions& options) {

@@ -8,6 +8,7 @@
 #include "model/accel/child_ref.h"
 #include "model/intersect/slab_test.h"
 #include "model/numeric/vec3.h"
+#include "model/scene/sphere.h"
 
 namespace ctu::accel {
 
@@ -19,10 +20,19 @@ struct alignas(64) Node4 {
 };
 static_assert(sizeof(Node4) == 128);
 
-/// A triangle in leaf order, with the id it has in the scene.
+/// A triangle in leaf order, with the id it has in the scene; or a sphere: its centre is v0, its radius v1.x, the rest
+/// 0, and its id has kSphereBit.
 struct LeafTriangle {
   Vec3 v0, v1, v2;
   std::uint32_t primitive;
+
+  static constexpr std::uint32_t kSphereBit = 0x80000000u;
+  static LeafTriangle of(const scene::Sphere& s, std::uint32_t id) {
+    return {s.centre, {s.radius, 0, 0}, {0, 0, 0}, id | kSphereBit};
+  }
+  bool is_sphere() const { return (primitive & kSphereBit) != 0; }
+  scene::Sphere sphere() const { return {v0, v1.x}; }
+  std::uint32_t id() const { return primitive & ~kSphereBit; }
 };
 static_assert(sizeof(LeafTriangle) == 40);
 
@@ -31,8 +41,9 @@ static_assert(sizeof(LeafTriangle) == 40);
 struct Bvh4 {
   std::vector<Node4> nodes;
   std::vector<LeafTriangle> triangles;
-  Vec3 lower, upper;  ///< bounds of the scene
-  int depth = 0;      ///< nodes on the longest path from the root
+  std::uint32_t spheres = 0;  ///< how many of them are spheres
+  Vec3 lower, upper;          ///< bounds of the scene
+  int depth = 0;              ///< nodes on the longest path from the root
 };
 
 }  // namespace ctu::accel

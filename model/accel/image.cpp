@@ -238,6 +238,9 @@ Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask
   if (layout.mask_bits != 0 && (masks == nullptr || words_per_mask < static_cast<int>((layout.mask_bits + 63) / 64)))
     throw Error("image layout", fmt::format("{} mask bits but {} words", layout.mask_bits, words_per_mask),
                 "give masks of ceil(mask_bits / 64) words, or no mask_bits");
+  if (bvh.spheres != 0)
+    throw Error("image", fmt::format("{} spheres", bvh.spheres),
+                "the unit has no sphere test: trace the scene with the reference, or convert spheres to triangles");
   if (layout.bare_nodes != 0 && layout.bare_nodes >= bvh.nodes.size())
     throw Error("image layout", fmt::format("{} bare nodes of {}", layout.bare_nodes, bvh.nodes.size()),
                 "leave the root its masks");

@@ -82,7 +82,7 @@ struct Image {
 
 /// The mask of node n, lane l is `masks[(n * 4 + l) * words_per_mask]` and the words behind it, lowest bits first;
 /// bits from mask_bits on are dropped. `masks` may be null when layout.mask_bits is 0. Throws Error on a layout that
-/// is not one (alignment, words that do not hold mask_bits), and on boxes that its box_bits cannot say.
+/// is not one (alignment, words that do not hold mask_bits), on boxes that its box_bits cannot say, and on spheres.
 Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask, const ImageLayout& layout);
 
 /// Reading one thing at its address, boxes decoded. Throws Error when the index is out of range.

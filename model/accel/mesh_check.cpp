@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "model/accel/node_box.h"
 #include "model/base/error.h"
 #include "model/base/parallel.h"
 
@@ -18,6 +19,13 @@ bool is_usable(const scene::Mesh& mesh, const std::array<std::uint32_t, 3>& corn
     if (!((v.x - v.x) + (v.y - v.y) + (v.z - v.z) == 0)) return false;
   }
   return true;
+}
+
+bool is_usable(const scene::Sphere& sphere) {
+  const Vec3 lower = lower_corner(sphere), upper = upper_corner(sphere);
+  float sum = sphere.radius >= 0 ? 0.0f : 1.0f;
+  for (int axis = 0; axis < 3; ++axis) sum += (lower[axis] - lower[axis]) + (upper[axis] - upper[axis]);
+  return sum == 0;
 }
 
 }  // namespace
@@ -37,6 +45,12 @@ Box3 checked_bounds(const scene::Mesh& mesh, int threads) {
   });
   Box3 bounds = Box3::empty();
   for (const Box3& box : partial) bounds.grow(box);
+  for (std::size_t s = 0; s < mesh.spheres.size(); ++s) {
+    if (!is_usable(mesh.spheres[s]))
+      throw Error(fmt::format("mesh, sphere {}", s), "not finite, or of a radius that is no size",
+                  "remove the sphere or repair it");
+    bounds.grow(box_of(mesh.spheres[s]));
+  }
   return bounds;
 }
 

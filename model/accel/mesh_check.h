@@ -6,7 +6,8 @@
 
 namespace ctu::accel {
 
-/// The bounds of the triangles. Throws ctu::Error, naming the triangle, when a corner is missing or not finite.
+/// The bounds of triangles and spheres. Throws ctu::Error, naming it, when a corner of a triangle is missing or not
+/// finite, or a sphere is not finite.
 Box3 checked_bounds(const scene::Mesh& mesh, int threads);
 
 }  // namespace ctu::accel

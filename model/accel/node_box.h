@@ -13,10 +13,19 @@ inline Vec3 to_vec3(__m128 v) {
   return {f[0], f[1], f[2]};
 }
 
-/// Of `count` triangles. Binary32 vertices bound themselves exactly: nothing is rounded, nothing padded.
+inline Box3 box_of(const scene::Sphere& sphere) {
+  return {to_vector(lower_corner(sphere)), to_vector(upper_corner(sphere))};
+}
+
+/// Of `count` primitives. Binary32 vertices bound themselves exactly: nothing is rounded, nothing padded. Spheres are
+/// rounded outward.
 inline Box3 box_of_triangles(const LeafTriangle* triangles, int count) {
   Box3 box = Box3::empty();
   for (int i = 0; i < count; ++i) {
+    if (triangles[i].is_sphere()) {
+      box.grow(box_of(triangles[i].sphere()));
+      continue;
+    }
     box.grow(to_vector(triangles[i].v0));
     box.grow(to_vector(triangles[i].v1));
     box.grow(to_vector(triangles[i].v2));

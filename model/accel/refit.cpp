@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cassert>
 #include <cstring>
 
+#include "model/accel/leaf_record.h"
 #include "model/accel/mesh_check.h"
 #include "model/accel/node_box.h"
 #include "model/base/error.h"
@@ -16,9 +16,10 @@ namespace {
 constexpr std::size_t kChunkNodes = 4096;
 
 void check(const Bvh4& bvh, const scene::Mesh& moved, int threads) {
-  if (moved.triangles.size() != bvh.triangles.size())
+  if (moved.primitives() != bvh.triangles.size() || moved.spheres.size() != bvh.spheres)
     throw Error("refit",
-                fmt::format("the mesh has {} triangles, the tree {}", moved.triangles.size(), bvh.triangles.size()),
+                fmt::format("the mesh has {} triangles and {} spheres, the tree {} and {}", moved.triangles.size(),
+                            moved.spheres.size(), bvh.triangles.size() - bvh.spheres, bvh.spheres),
                 "give the mesh that the tree was built from, with moved vertices; build a new tree for another mesh");
   checked_bounds(moved, threads);
 }
@@ -28,10 +29,7 @@ bool move_leaf(LeafTriangle* triangles, int count, const scene::Mesh& moved) {
   bool changed = false;
   for (int i = 0; i < count; ++i) {
     LeafTriangle& triangle = triangles[i];
-    assert(triangle.primitive < moved.triangles.size());
-    const auto& corners = moved.triangles[triangle.primitive];
-    const LeafTriangle next{moved.vertices[corners[0]], moved.vertices[corners[1]], moved.vertices[corners[2]],
-                            triangle.primitive};
+    const LeafTriangle next = leaf_record(moved, triangle.id());
     if (std::memcmp(&next, &triangle, sizeof next) == 0) continue;
     triangle = next;
     changed = true;

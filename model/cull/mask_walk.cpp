@@ -16,6 +16,7 @@
 
 #include "model/base/parallel.h"
 #include "model/cull/fill_pattern.h"
+#include "model/cull/sphere_cells.h"
 
 namespace ctu::cull {
 namespace {
@@ -155,8 +156,12 @@ class Walk {
     const accel::LeafTriangle* triangles = bvh_.triangles.data() + accel::leaf_first(ref);
     for (std::size_t i = first_taker; i < takers_.size(); ++i) {
       const OpenBox<R>& box = open_[static_cast<std::size_t>(takers_[i])];
-      for (int t = 0; t < accel::leaf_count(ref); ++t)
-        add_triangle<R>(box.grid, triangles[t].v0, triangles[t].v1, triangles[t].v2, box.mask);
+      for (int t = 0; t < accel::leaf_count(ref); ++t) {
+        if (triangles[t].is_sphere())
+          add_sphere<R>(box.bounds, triangles[t].sphere(), box.mask);
+        else
+          add_triangle<R>(box.grid, triangles[t].v0, triangles[t].v1, triangles[t].v2, box.mask);
+      }
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include "model/accel/build_by.h"
 #include "model/accel/mesh_check.h"
+#include "model/base/error.h"
 #include "model/base/parallel.h"
 #include "model/influence/projected_area.h"
 
@@ -49,6 +50,9 @@ std::string to_string(const TreeHeuristic& heuristic) {
 }
 
 std::vector<std::uint32_t> triangles_in(const scene::Mesh& mesh, const PreparedArea& area, int threads) {
+  if (!mesh.spheres.empty())
+    throw Error("local tree", fmt::format("the scene has {} spheres", mesh.spheres.size()),
+                "name a scene of triangles: whether an area touches a sphere is not decided");
   std::vector<std::uint8_t> touches(mesh.triangles.size());
   parallel_chunks(touches.size(), kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {

@@ -29,7 +29,8 @@ inline constexpr TreeHeuristic kLocalHeuristic{TreeCost::Mixed, TreeAxes::All};
 /// "SPFH + SAH" and so on, as the paper names them.
 std::string to_string(const TreeHeuristic& heuristic);
 
-/// Ids of the triangles that may have a point in the area, ascending: none that has one is left out.
+/// Ids of the triangles that may have a point in the area, ascending: none that has one is left out. Throws Error for a
+/// mesh with spheres.
 std::vector<std::uint32_t> triangles_in(const scene::Mesh& mesh, const PreparedArea& area, int threads);
 
 /// The tree over the triangles of `mesh`, by the heuristic for the rays of `area`.

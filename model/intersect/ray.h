@@ -25,7 +25,7 @@ bool is_valid(const Ray& ray);
 inline constexpr std::uint32_t kNoPrimitive = 0xFFFFFFFFu;
 
 /// What a ray found: `primitive` is kNoPrimitive and t the ray's tmax when it found nothing.
-/// The point is (1-u-v) v0 + u v1 + v v2.
+/// The point is (1-u-v) v0 + u v1 + v v2 of a triangle; u and v of a sphere are 0.
 struct Hit {
   float t = 0, u = 0, v = 0;
   std::uint32_t primitive = kNoPrimitive;

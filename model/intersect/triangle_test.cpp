@@ -7,17 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "model/intersect/round24.h"
+
 namespace ctu::intersect {
 
 namespace {
-
-/// Round to nearest even at 24 significant bits, the exponent kept as it is. Carries run into the exponent rightly.
-double round24(double x) {
-  constexpr std::uint64_t kDropped = (std::uint64_t{1} << 29) - 1;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  const std::uint64_t even = (bits >> 29) & 1;
-  return std::bit_cast<double>((bits + (kDropped >> 1) + even) & ~kDropped);
-}
 
 /// R(p - q) for two exact products. The difference may need more than binary64's 53 bits; rounding it to odd keeps
 /// the second rounding right (Boldo and Melquiond 2008). Its sign is exact at every step.

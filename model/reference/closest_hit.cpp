@@ -69,7 +69,8 @@ int largest_axis(const Vec3& d) {
 
 }  // namespace
 
-FastTracer::FastTracer(const accel::Bvh4& bvh) : lower_(bvh.lower), upper_(bvh.upper), nodes_(widen(bvh)) {
+FastTracer::FastTracer(const accel::Bvh4& bvh)
+    : lower_(bvh.lower), upper_(bvh.upper), has_spheres_(bvh.spheres != 0), nodes_(widen(bvh)) {
   if (bvh.depth > kMaxDepth)
     throw Error("tree", fmt::format("{} levels deep", bvh.depth), fmt::format("at most {} are walked", kMaxDepth));
   rows_.reserve(bvh.triangles.size());
@@ -93,8 +94,8 @@ Hit FastTracer::walk(const Ray& ray, const Boxes& boxes, const Triangle& triangl
                         last = first + static_cast<std::uint32_t>(accel::leaf_count(leaf));
     for (std::uint32_t i = first; i < last; ++i) {
       const intersect::TriangleResult r = triangle.test(rows_[i], best.t);
-      if (!r.hit || !intersect::replaces(r.t, rows_[i].primitive(), best)) continue;
-      best = {r.t, r.u, r.v, rows_[i].primitive()};
+      if (!r.hit || !intersect::replaces(r.t, rows_[i].primitive() & ~accel::LeafTriangle::kSphereBit, best)) continue;
+      best = {r.t, r.u, r.v, rows_[i].primitive() & ~accel::LeafTriangle::kSphereBit};
       if constexpr (kAny) return best;
       limit = best.t;
     }
@@ -102,14 +103,22 @@ Hit FastTracer::walk(const Ray& ray, const Boxes& boxes, const Triangle& triangl
   return best;
 }
 
+/// Scenes without spheres do not ask what a primitive is.
+template <bool kAny, class Boxes, class Triangle>
+Hit FastTracer::walk_leaves_of(const Ray& ray, const Boxes& boxes, const Triangle& triangle) const {
+  if (has_spheres_) return walk<kAny>(ray, boxes, WithSpheres<Triangle>(ray, triangle));
+  return walk<kAny>(ray, boxes, triangle);
+}
+
 template <bool kAny>
 Hit FastTracer::trace(const Ray& ray) const {
   const int kz = largest_axis(ray.direction);
-  const Reach reach(lower_, upper_, ray.origin);
+  Reach reach(lower_, upper_, ray.origin);
+  if (has_spheres_) reach.distance *= kSphereReach;
   if (!intersect::is_valid(ray)) return {ray.tmax, 0, 0, intersect::kNoPrimitive};
   if (FastBoxes::fit(ray, reach, kz) && FastTriangle::fits(ray, kz))
-    return walk<kAny>(ray, FastBoxes(ray, reach, kz), FastTriangle(ray, kz));
-  return walk<kAny>(ray, WideBoxes(ray, reach, kz), DefinedTriangle(ray));
+    return walk_leaves_of<kAny>(ray, FastBoxes(ray, reach, kz), FastTriangle(ray, kz));
+  return walk_leaves_of<kAny>(ray, WideBoxes(ray, reach, kz), DefinedTriangle(ray));
 }
 
 Hit FastTracer::closest(const Ray& ray) const { return trace<false>(ray); }

@@ -1,9 +1,9 @@
 // The untimed, uncounted way to a ray's hit: for making rays and for holding other answers against.
 //
-// It answers what testing every triangle with intersect::triangle_test and keeping the best by intersect::replaces()
-// would answer, bit for bit: its boxes are padded by more than the triangle test's own rounding, so that not even a
-// triangle which is hit by rounding alone is skipped (padded_boxes.h). The reference traversal, whose boxes are exact,
-// may rightly skip such a near miss.
+// It answers what testing every primitive with intersect::triangle_test or sphere_test and keeping the best by
+// intersect::replaces() would answer, bit for bit: its boxes are padded by more than the triangle test's own rounding,
+// so that not even a triangle which is hit by rounding alone is skipped (padded_boxes.h). The reference traversal,
+// whose boxes are exact, may rightly skip such a near miss.
 #pragma once
 
 #include <vector>
@@ -32,7 +32,11 @@ class FastTracer {
   template <bool kAny, class Boxes, class Triangle>
   intersect::Hit walk(const intersect::Ray& ray, const Boxes& boxes, const Triangle& triangle) const;
 
-  Vec3 lower_, upper_;  // bounds of all vertices
+  template <bool kAny, class Boxes, class Triangle>
+  intersect::Hit walk_leaves_of(const intersect::Ray& ray, const Boxes& boxes, const Triangle& triangle) const;
+
+  Vec3 lower_, upper_;  // bounds of all vertices and spheres
+  bool has_spheres_;
   std::vector<Node8> nodes_;
   std::vector<VertexRows> rows_;  // of the triangles, in leaf order
 };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "model/accel/bvh4.h"
+#include "model/intersect/sphere_test.h"
 #include "model/intersect/triangle_test.h"
 
 namespace ctu::reference {
@@ -32,6 +33,24 @@ struct alignas(16) VertexRows {
   }
   Vec3 vertex(int i) const { return {axis[0][i], axis[1][i], axis[2][i]}; }
   std::uint32_t primitive() const { return std::bit_cast<std::uint32_t>(axis[0][3]) - kIdOffset; }
+};
+
+/// Spheres, laid out as in LeafTriangle, by their test, triangles by another class of this file.
+template <class Triangle>
+class WithSpheres {
+ public:
+  WithSpheres(const intersect::Ray& ray, const Triangle& triangle)
+      : ray_(intersect::prepare_ray(ray)), triangle_(triangle) {}
+
+  intersect::TriangleResult test(const VertexRows& row, float tmax) const {
+    if ((row.primitive() & accel::LeafTriangle::kSphereBit) == 0) return triangle_.test(row, tmax);
+    const intersect::SphereResult result = intersect::sphere_test(ray_, {row.vertex(0), row.vertex(1).x}, tmax);
+    return {result.hit, result.t, 0, 0};
+  }
+
+ private:
+  intersect::PreparedRay ray_;
+  const Triangle& triangle_;
 };
 
 /// The defined test and nothing else.

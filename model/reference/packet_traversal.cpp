@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "model/intersect/triangle_test.h"
+#include "model/reference/primitive_test.h"
 #include "model/reference/visit_order.h"
 
 namespace ctu::reference {
@@ -181,6 +181,7 @@ class PacketWalk {
       const Asking asking(*this, group);
       for (int k = 0; k < count; ++k) {
         const accel::LeafTriangle& t = bvh_.triangles[first + static_cast<std::uint32_t>(k)];
+        if (t.is_sphere()) continue;  // asked of each ray only
         if (asking.all_miss(Triangle{{t.v0, t.v1, t.v2}}, counts_.triangle_questions, counts_.triangle_misses))
           culled |= 1u << k;
       }
@@ -196,10 +197,7 @@ class PacketWalk {
   void test_leaf(Traveller& traveller, std::uint32_t first, int count, unsigned culled) const {
     for (int k = 0; k < count; ++k) {
       if ((culled >> k & 1u) != 0) continue;
-      const accel::LeafTriangle& t = bvh_.triangles[first + static_cast<std::uint32_t>(k)];
-      const auto result = intersect::triangle_test(traveller.ray, t.v0, t.v1, t.v2, traveller.best.t);
-      if (result.hit && intersect::replaces(result.t, t.primitive, traveller.best))
-        traveller.best = {result.t, result.u, result.v, t.primitive};
+      test_primitive<true>(traveller.ray, bvh_.triangles[first + static_cast<std::uint32_t>(k)], traveller.best);
     }
     const bool any_hit = traveller.ray.ray.kind == intersect::RayKind::AnyHit;
     if (any_hit && traveller.best.primitive != intersect::kNoPrimitive) traveller.stack.clear();

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <type_traits>
 
 #include <fmt/format.h>
 
 #include "model/base/error.h"
-#include "model/intersect/triangle_test.h"
+#include "model/cull/leaf_culling.h"
+#include "model/reference/primitive_test.h"
 #include "model/reference/visit_order.h"
 
 namespace ctu::reference {
@@ -19,16 +21,25 @@ struct StackEntry {
   accel::ChildRef ref;
   float t0;
 };
+/// Ray boxes need to know where the ray leaves, too.
+struct StackEntryWithExit : StackEntry {
+  float t1;
+};
 
 // Step::dropped counts in 8 bits, so no ray may ever hold more entries than that.
 constexpr int kMaxStackEntries = std::numeric_limits<std::uint8_t>::max();
 
-/// One ray on its way through the tree. `kRecord` decides once whether the event sequence is written.
-template <bool kRecord>
+/// One ray on its way through the tree. `kRecord` decides once whether the event sequence is written, `kSpheres`
+/// whether a leaf may hold spheres, `kRayBox` whether ray boxes cull its primitives.
+template <bool kRecord, bool kSpheres, bool kRayBox>
 class Walk {
  public:
-  Walk(const NodeTest& test_node, const intersect::Ray& ray, StepList* steps, const intersect::Hit* known)
+  using Entry = std::conditional_t<kRayBox, StackEntryWithExit, StackEntry>;
+
+  Walk(const NodeTest& test_node, const accel::PrimitiveBox* leaf_boxes, const intersect::Ray& ray, StepList* steps,
+       const intersect::Hit* known)
       : test_node_(test_node),
+        leaf_boxes_(leaf_boxes),
         bvh_(test_node.bvh()),
         ray_(intersect::prepare_ray(ray)),
         steps_(steps),
@@ -38,14 +49,14 @@ class Walk {
 
   intersect::Hit run() {
     if (!ray_.valid) return best_;
-    stack_[size_++] = {0, ray_.ray.tmin};
-    accel::ChildRef ref;
-    while (pop(ref)) {
-      if (accel::is_leaf(ref)) {
-        visit_leaf(ref);
+    push(0, ray_.ray.tmin, ray_.ray.tmax);
+    Entry at;
+    while (pop(at)) {
+      if (accel::is_leaf(at.ref)) {
+        visit_leaf(at);
         if (ray_.ray.kind == intersect::RayKind::AnyHit && best_.primitive != intersect::kNoPrimitive) return best_;
       } else {
-        visit_node(ref);
+        visit_node(at.ref);
       }
     }
     return best_;
@@ -53,13 +64,22 @@ class Walk {
 
   /// Entries dropped since the last visit.
   std::uint8_t dropped() const { return dropped_; }
+  /// All zero without ray boxes.
+  const cull::RayBoxCounts& box_counts() const { return box_counts_; }
 
  private:
-  bool pop(accel::ChildRef& ref) {
+  void push(accel::ChildRef ref, float t0, float t1) {
+    if constexpr (kRayBox)
+      stack_[size_++] = {{ref, t0}, t1};
+    else
+      stack_[size_++] = {ref, t0};
+  }
+
+  bool pop(Entry& at) {
     while (size_ > 0) {
-      const StackEntry& top = stack_[--size_];
+      const Entry& top = stack_[--size_];
       if (top.t0 <= best_.t) {
-        ref = top.ref;
+        at = top;
         return true;
       }
       ++dropped_;
@@ -85,24 +105,36 @@ class Walk {
         for (int lane = 0; lane < kLanes; ++lane)
           if ((times.hit >> lane) & 1u) steps_->keys.push_back(outcome.key[lane]);
     }
-    for (int i = order.count - 1; i >= 0; --i) stack_[size_++] = {node.child[order.lane[i]], times.t0[order.lane[i]]};
+    for (int i = order.count - 1; i >= 0; --i) {
+      const int lane = order.lane[i];
+      push(node.child[lane], times.t0[lane], times.t1[lane]);
+    }
   }
 
-  void visit_leaf(accel::ChildRef ref) {
-    const std::uint32_t first = accel::leaf_first(ref);
-    const int count = accel::leaf_count(ref);
+  void visit_leaf(const Entry& at) {
+    const std::uint32_t first = accel::leaf_first(at.ref);
+    const auto count = static_cast<std::uint32_t>(accel::leaf_count(at.ref));
     unsigned became_best = 0;
-    for (int i = 0; i < count; ++i) {
-      const accel::LeafTriangle& triangle = bvh_.triangles[first + i];
-      const auto result = intersect::triangle_test(ray_, triangle.v0, triangle.v1, triangle.v2, best_.t);
-      if (!result.hit || !intersect::replaces(result.t, triangle.primitive, best_)) continue;
-      best_ = {result.t, result.u, result.v, triangle.primitive};
-      became_best |= 1u << i;
+    const auto test = [&](std::uint32_t i) {
+      const bool best = test_primitive<kSpheres>(ray_, bvh_.triangles[first + i], best_);
+      if (best) became_best |= 1u << i;
+      return best;
+    };
+    std::uint64_t tested = count;
+    if constexpr (kRayBox) {
+      const std::uint64_t before = box_counts_.primitive_tests;
+      const auto box_of = [&](std::uint32_t i) -> const accel::PrimitiveBox& { return leaf_boxes_[first + i]; };
+      // An any-hit ray leaves after the leaf, as without culling.
+      cull::visit_leaf<cull::RayBox>(ray_.ray, at.t0, at.t1, count, best_.t, false, box_of, test, box_counts_);
+      tested = box_counts_.primitive_tests - before;
+    } else {
+      for (std::uint32_t i = 0; i < count; ++i) test(i);
     }
-    if constexpr (kRecord) record(ref, static_cast<unsigned>(count), became_best);
+    if constexpr (kRecord) record(at.ref, static_cast<unsigned>(tested), became_best);
   }
 
   const NodeTest& test_node_;
+  const accel::PrimitiveBox* const leaf_boxes_;
   const accel::Bvh4& bvh_;
   const intersect::PreparedRay ray_;
   StepList* steps_;
@@ -110,15 +142,44 @@ class Walk {
   intersect::Hit best_;
   std::uint8_t dropped_ = 0;
   int size_ = 0;
-  std::array<StackEntry, kMaxStackEntries> stack_;
+  std::array<Entry, kMaxStackEntries> stack_;
+  cull::RayBoxCounts box_counts_;
 };
+
+struct Outcome {
+  intersect::Hit hit;
+  std::uint8_t dropped;
+  cull::RayBoxCounts box_counts;
+};
+
+template <bool kRecord>
+Outcome walk(const NodeTest& test_node, const std::vector<accel::PrimitiveBox>* leaf_boxes, const intersect::Ray& ray,
+             StepList* steps, const intersect::Hit* known) {
+  const auto run = [&](auto spheres, auto ray_box) {
+    Walk<kRecord, spheres(), ray_box()> walk(test_node, ray_box() ? leaf_boxes->data() : nullptr, ray, steps, known);
+    const intersect::Hit hit = walk.run();
+    return Outcome{hit, walk.dropped(), walk.box_counts()};
+  };
+  const bool spheres = test_node.bvh().spheres != 0;
+  if (leaf_boxes == nullptr)
+    return spheres ? run(std::true_type(), std::false_type()) : run(std::false_type(), std::false_type());
+  return spheres ? run(std::true_type(), std::true_type()) : run(std::false_type(), std::true_type());
+}
 
 }  // namespace
 
+std::vector<accel::PrimitiveBox> leaf_boxes(const accel::Bvh4& bvh) {
+  std::vector<accel::PrimitiveBox> boxes;
+  boxes.reserve(bvh.triangles.size());
+  for (const accel::LeafTriangle& primitive : bvh.triangles) boxes.push_back(accel::box_of_primitive(primitive));
+  return boxes;
+}
+
 int stack_bound(const accel::Bvh4& bvh) { return (kLanes - 1) * bvh.depth + 1; }
 
-Traversal::Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester)
-    : test_node_(bvh, masks, tester) {
+Traversal::Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester,
+                     const std::vector<accel::PrimitiveBox>* leaf_boxes)
+    : test_node_(bvh, masks, tester), leaf_boxes_(leaf_boxes) {
   if (stack_bound(bvh) > kMaxStackEntries)
     throw Error("BVH",
                 fmt::format("depth {} needs a traversal stack of {} entries; the limit is {}", bvh.depth,
@@ -126,14 +187,16 @@ Traversal::Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, con
                 "allow more triangles in a leaf");
 }
 
-intersect::Hit Traversal::trace(const intersect::Ray& ray, StepList* steps, const intersect::Hit* known) const {
-  if (steps == nullptr) return Walk<false>(test_node_, ray, nullptr, known).run();
-  Walk<true> walk(test_node_, ray, steps, known);
-  const intersect::Hit hit = walk.run();
-  steps->tail_dropped.push_back(walk.dropped());
+intersect::Hit Traversal::trace(const intersect::Ray& ray, StepList* steps, const intersect::Hit* known,
+                                cull::RayBoxCounts* box_counts) const {
+  const Outcome outcome = steps == nullptr ? walk<false>(test_node_, leaf_boxes_, ray, nullptr, known)
+                                           : walk<true>(test_node_, leaf_boxes_, ray, steps, known);
+  if (box_counts != nullptr) *box_counts += outcome.box_counts;
+  if (steps == nullptr) return outcome.hit;
+  steps->tail_dropped.push_back(outcome.dropped);
   steps->first_step.push_back(steps->steps.size());
   steps->first_key.push_back(steps->keys.size());
-  return hit;
+  return outcome.hit;
 }
 
 }  // namespace ctu::reference

@@ -1,8 +1,12 @@
 // Algorithm 4 of the paper: the untimed traversal with culling, the functional truth for the timed unit.
 #pragma once
 
+#include <vector>
+
 #include "model/accel/bvh4.h"
+#include "model/accel/kd_tree.h"
 #include "model/cull/mask_test.h"
+#include "model/cull/ray_box.h"
 #include "model/intersect/ray.h"
 #include "model/reference/node_test.h"
 #include "model/reference/step.h"
@@ -12,17 +16,23 @@ namespace ctu::reference {
 /// Traces rays one by one; const after construction, so threads share it.
 class Traversal {
  public:
-  /// `masks` may be null when the tester's design is none. All three must outlive this.
-  Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester);
+  /// `masks` may be null when the tester's design is none. With `leaf_boxes`, those of leaf_boxes(bvh), ray boxes cull
+  /// primitives in the leaves; a step then counts the primitives that were tested. All must outlive this.
+  Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester,
+            const std::vector<accel::PrimitiveBox>* leaf_boxes = nullptr);
 
   /// The ray's hit. When `steps` is given, its event sequence is appended there as one more ray. `known`: a hit, or a
-  /// miss, that is kept unless a better one is found.
-  intersect::Hit trace(const intersect::Ray& ray, StepList* steps = nullptr,
-                       const intersect::Hit* known = nullptr) const;
+  /// miss, that is kept unless a better one is found. What ray boxes did, if they cull, is added to `box_counts`.
+  intersect::Hit trace(const intersect::Ray& ray, StepList* steps = nullptr, const intersect::Hit* known = nullptr,
+                       cull::RayBoxCounts* box_counts = nullptr) const;
 
  private:
   NodeTest test_node_;
+  const std::vector<accel::PrimitiveBox>* leaf_boxes_;
 };
+
+/// The boxes of the primitives in leaf order, for ray-box culling.
+std::vector<accel::PrimitiveBox> leaf_boxes(const accel::Bvh4& bvh);
 
 /// Upper bound of stack entries any ray can need in this tree: 3 for each level above the last, and 1.
 int stack_bound(const accel::Bvh4& bvh);

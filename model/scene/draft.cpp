@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include "model/base/error.h"
 #include "model/scene/camera.h"
@@ -19,9 +18,9 @@ constexpr std::size_t kMostWarnings = 50;
 bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 void check_mesh(const Mesh& mesh, const std::string& where) {
-  if (mesh.triangles.empty())
-    throw Error(where, "holds no triangles",
-                "name a scene with at least one triangle; an export may have been cut off");
+  if (mesh.primitives() == 0)
+    throw Error(where, "holds no triangles and no spheres",
+                "name a scene with at least one of them; an export may have been cut off");
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     if (!finite(mesh.vertices[v]))
       throw Error(fmt::format("{}: vertex {}", where, v), "is not finite in binary32 (NaN, infinite or overflowed)",
@@ -32,6 +31,12 @@ void check_mesh(const Mesh& mesh, const std::string& where) {
         throw Error(fmt::format("{}: triangle {}", where, t),
                     fmt::format("names vertex {}, but there are {}", index, mesh.vertices.size()),
                     "the file is damaged or was exported wrongly");
+  for (std::size_t s = 0; s < mesh.spheres.size(); ++s) {
+    const Sphere& sphere = mesh.spheres[s];
+    if (!(sphere.radius >= 0) || !finite(lower_corner(sphere)) || !finite(upper_corner(sphere)))
+      throw Error(fmt::format("{}: sphere {}", where, s), "is not finite in binary32, or its radius is no size",
+                  "repair or scale down the model before loading it");
+  }
 }
 
 // The cross product of two edges in binary64: the edges are exact or nearly so, and a triangle that the file gives with
@@ -61,18 +66,10 @@ void report_left_out(Draft& draft, const std::string& where) {
 }
 
 void measure(Scene& scene) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  scene.lower = {kInfinity, kInfinity, kInfinity};
-  scene.upper = {-kInfinity, -kInfinity, -kInfinity};
+  measure_bounds(scene);
   const auto& vertices = scene.mesh.vertices;
-  for (const auto& [a, b, c] : scene.mesh.triangles) {
+  for (const auto& [a, b, c] : scene.mesh.triangles)
     scene.report.zero_area_triangles += has_no_area(vertices[a], vertices[b], vertices[c]);
-    for (const std::uint32_t corner : {a, b, c})
-      for (int axis = 0; axis < 3; ++axis) {
-        scene.lower[axis] = std::min(scene.lower[axis], vertices[corner][axis]);
-        scene.upper[axis] = std::max(scene.upper[axis], vertices[corner][axis]);
-      }
-  }
 }
 
 }  // namespace
@@ -96,12 +93,19 @@ void Draft::add_format(const std::string& format) {
 }
 
 void Draft::require_room(const Place& where, std::uint64_t more_vertices, std::uint64_t more_triangles) {
-  if (more_vertices > kMostVertices - mesh.vertices.size() || more_triangles > kMostTriangles - mesh.triangles.size())
+  if (more_vertices > kMostVertices - mesh.vertices.size() || more_triangles > kMostTriangles - mesh.primitives())
     throw Error(where.text(),
                 fmt::format("brings the scene to more than {} triangles or {} vertices", kMostTriangles, kMostVertices),
                 "load a part of the scene");
   grow(mesh.vertices, more_vertices);
   grow(mesh.triangles, more_triangles);
+}
+
+void Draft::require_room_for_spheres(const Place& where, std::uint64_t more) {
+  if (more > kMostTriangles - mesh.primitives())
+    throw Error(where.text(), fmt::format("brings the scene to more than {} triangles and spheres", kMostTriangles),
+                "load a part of the scene");
+  grow(mesh.spheres, more);
 }
 
 bool Draft::leaves_out(const std::string& file) {

@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/base/error.h"
@@ -102,7 +105,8 @@ void straight_hair(Parameters& p, const std::string& where, Draft& draft) {
 }
 
 void append_quad(const Vector64& center, const Vector64& half_u, const Vector64& half_v, Draft& draft) {
-  auto& [vertices, triangles] = draft.mesh;
+  auto& vertices = draft.mesh.vertices;
+  auto& triangles = draft.mesh.triangles;
   const auto first = static_cast<std::uint32_t>(vertices.size());
   vertices.push_back((center - half_u - half_v).rounded());
   vertices.push_back((center + half_u - half_v).rounded());
@@ -173,14 +177,69 @@ void tetra(Parameters& p, const std::string& where, Draft& draft) {
   tetrahedron({0, 0, 0}, 1, depth, draft.mesh);
 }
 
+/// The nine directions of a sphere's children about its own, +z: three on its upper side and six around its equator,
+/// with which all nine and the parent touch. The three of SPD are (1,1,0), (1,0,-1) and (0,1,-1), turned about
+/// (1,-1,0) by the angle whose sine is 2/sqrt(6); the others are these turned about z by thirds.
+std::array<Vector64, 9> sphereflake_directions() {
+  const Vector64 first[3] = {{1, 1, 0}, {1, 0, -1}, {0, 1, -1}};
+  const Vector64 axis = Vector64{1, -1, 0} * std::sqrt(0.5);
+  const double sine = 2 / std::sqrt(6.0), cosine = std::sqrt(1.0 / 3);
+  std::array<Vector64, 9> all;
+  for (std::size_t i = 0; i < 9; ++i) {
+    const Vector64 v = first[i % 3] * std::sqrt(0.5);
+    const Vector64 leant = v * cosine + cross(axis, v) * sine + axis * (dot(axis, v) * (1 - cosine));
+    const Turn third = turn(static_cast<double>(i / 3) / 3);
+    all[i] = {leant.x * third.cosine - leant.y * third.sine, leant.x * third.sine + leant.y * third.cosine, leant.z};
+  }
+  return all;
+}
+
+/// `v` under the rotation that takes +z to the unit vector `z` by the shortest way.
+Vector64 turned_with(const Vector64& z, const Vector64& v) {
+  if (z.z <= -1) return {-v.x, v.y, -v.z};    // any way is as short; SPD turns about y
+  const Vector64 axis = cross({0, 0, 1}, z);  // of length sin
+  return v * z.z + cross(axis, v) + axis * (dot(axis, v) / (1 + z.z));
+}
+
+void sphereflake(const Vector64& centre, double radius, const Vector64& along, std::uint64_t depth,
+                 const std::array<Vector64, 9>& directions, Mesh& mesh) {
+  mesh.spheres.push_back({centre.rounded(), static_cast<float>(radius)});
+  if (depth == 0) return;
+  for (const Vector64& direction : directions) {
+    const Vector64 outward = turned_with(along, direction);
+    sphereflake(centre + outward * (radius + radius / 3), radius / 3, outward, depth - 1, directions, mesh);
+  }
+}
+
+/// Haines' Standard Procedural Databases, "balls": the sphereflake over a square, seen by the database's camera.
+void balls(Parameters& p, const std::string& where, Draft& draft) {
+  const std::uint64_t depth = p.whole("depth", 4, 0, 7);
+  p.expect_all_used();
+  std::uint64_t spheres = 1;
+  for (std::uint64_t level = 0; level < depth; ++level) spheres = 9 * spheres + 1;
+  draft.require_room(where, 4, 2);
+  draft.require_room_for_spheres(where, spheres);
+  constexpr float kHalf = 12, kGround = -0.5f;
+  for (const auto& [x, y] : {std::pair{1, 1}, {-1, 1}, {-1, -1}, {1, -1}})
+    draft.mesh.vertices.push_back({kHalf * static_cast<float>(x), kHalf * static_cast<float>(y), kGround});
+  draft.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  sphereflake({0, 0, 0}, 0.5, {0, 0, 1}, depth, sphereflake_directions(), draft.mesh);
+  draft.camera = Camera{{2.1f, 1.3f, 1.7f}, {0, 0, 0}, {0, 0, 1}, 45, true};
+}
+
 struct Generator {
   const char* name;
   void (*make)(Parameters&, const std::string&, Draft&);
 };
 
 constexpr Generator kGenerators[] = {
-    {"hair-ball", hair_ball},       {"curly-hair", curly_hair}, {"straight-hair", straight_hair},
-    {"tilted-quads", tilted_quads}, {"foliage", foliage},       {"tetra", tetra},
+    {"hair-ball", hair_ball},
+    {"curly-hair", curly_hair},
+    {"straight-hair", straight_hair},
+    {"tilted-quads", tilted_quads},
+    {"foliage", foliage},
+    {"tetra", tetra},
+    {"balls", balls},
 };
 
 }  // namespace

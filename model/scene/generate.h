@@ -8,9 +8,11 @@
 //   tilted-quads   random quads turned every way  quads=2000 size=0.1 aspect=8
 //   foliage        twigs of cards in a crown      twigs=200 cards=12 size=0.06 aspect=2.5
 //   tetra          SPD's recursive tetrahedron    depth=6 (4^depth triangles)
+//   balls          SPD's sphereflake on a square  depth=4 (1 + 9 + ... + 9^depth spheres, 7,381; 2 triangles)
 //
-// All but tetra take seed=1. Random numbers come from a counter-based generator and no function of libm but sqrt is
-// used, so the same name gives the same bits everywhere. Lengths are in scene units; the scenes are a few units wide.
+// All but tetra and balls take seed=1. Random numbers come from a counter-based generator and no function of libm but
+// sqrt is used, so the same name gives the same bits everywhere. Lengths are in scene units; the scenes are a few units
+// wide.
 #pragma once
 
 #include <string>

@@ -28,8 +28,8 @@ struct LoadOptions {
 /// unless a MISSING.txt beside the scene lists it.
 ///
 /// Throws Error on anything that is not a scene: file, element, remedy; and on a pattern that left out nothing. The
-/// result has at least one triangle, all indices in range, all vertices finite. Triangles without area are kept and
-/// counted.
+/// result has at least one triangle or sphere, all indices in range, all vertices and spheres finite. Triangles without
+/// area are kept and counted.
 Scene load(const std::string& name, const LoadOptions& options = {});
 
 }  // namespace ctu::scene

@@ -1,6 +1,7 @@
-// Eric Haines' Neutral File Format, as far as it is triangles: polygons and the view.
+// Eric Haines' Neutral File Format: polygons, spheres and the view.
 #include <fmt/core.h>
 
+#include <cmath>
 #include <string_view>
 
 #include "model/base/error.h"
@@ -33,9 +34,9 @@ class NffReader {
     if (key == "v") return;
     if (key == "b" || key == "l" || key == "f" || key == "hither" || key == "resolution")
       return static_cast<void>(text_.rest_of_line());
-    if (key == "s" || key == "c")
-      text_.fail(key == "s" ? "a sphere; spheres are not read yet" : "a cone or cylinder; they are not read",
-                 "load a scene of polygons, or convert it to triangles");
+    if (key == "s") return sphere();
+    if (key == "c")
+      text_.fail("a cone or cylinder; they are not read", "load a scene of polygons and spheres, or convert it");
     text_.fail(fmt::format("unknown statement '{}'", key.substr(0, 40)), "NFF knows v b l f p pp s c");
   }
 
@@ -47,6 +48,16 @@ class NffReader {
     camera_.vertical_fov_degrees = text_.number("an angle");
     if (!(camera_.vertical_fov_degrees > 0 && camera_.vertical_fov_degrees < 180))
       text_.fail("a field of view outside (0, 180) degrees", "correct the line");
+  }
+
+  // A negative radius turns the visible side inward; here both sides are hit.
+  void sphere() {
+    const Place where = text_.where();
+    Sphere sphere;
+    point(sphere.centre);
+    sphere.radius = std::fabs(text_.number("a radius"));
+    draft_.require_room_for_spheres(where, 1);
+    draft_.mesh.spheres.push_back(sphere);
   }
 
   void polygon(bool has_normals) {

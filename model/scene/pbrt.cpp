@@ -1,9 +1,11 @@
-// The geometry of pbrt-v3 scenes: triangle meshes, PLY meshes, transforms, instances (flattened) and the camera.
-// Source: pbrt.org/fileformat-v3. Materials, textures, lights and film are passed over by name; shapes that are not
-// triangles are refused, and so is a statement that nobody knows, since a misspelt transform would move the scene.
+// The geometry of pbrt-v3 scenes: triangle meshes, PLY meshes, Loop subdivision surfaces, spheres, transforms,
+// instances (flattened) and the camera. Source: pbrt.org/fileformat-v3. Materials, textures, lights and film are passed
+// over by name; other shapes are refused, and so is a statement that nobody knows, since a misspelt transform would
+// move the scene.
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -38,14 +40,31 @@ const std::vector<std::string>& passed_over() {
   return names;
 }
 
-/// A shape of an object: ranges of vertices and triangles, and the matrix at its definition.
+/// A shape of an object: ranges of vertices, triangles and spheres, and the matrix at its definition.
 struct Part {
-  std::size_t first_vertex, last_vertex, first_triangle, last_triangle;
+  std::size_t first_vertex, last_vertex, first_triangle, last_triangle, first_sphere, last_sphere;
   Affine placement;
 };
 
-/// Copies a part with its vertices moved by `placement`.
-void append_moved(const Mesh& from, const Part& part, const Affine& placement, Mesh& to) {
+/// The sphere under a map that keeps angles, which those of text files do to about six digits. Throws Error at `where`
+/// for others: they make an ellipsoid of it.
+Sphere moved(const Sphere& sphere, const Affine& placement, const Place& where) {
+  constexpr double kDigits = 1e-5;
+  const Vector64 column[3] = {placement.direction({1, 0, 0}), placement.direction({0, 1, 0}),
+                              placement.direction({0, 0, 1})};
+  const double scale = length(column[0]), square = scale * scale;
+  for (int i = 0; i < 3; ++i)
+    if (!(std::fabs(dot(column[i], column[i]) - square) <= kDigits * square) ||
+        !(std::fabs(dot(column[i], column[(i + 1) % 3])) <= kDigits * square))
+      throw Error(where.text(), "a sphere under a transform that makes an ellipsoid of it",
+                  "scale it evenly, or give it as triangles");
+  return {placement.vertex(sphere.centre), static_cast<float>(scale * sphere.radius)};
+}
+
+/// Copies a part with its vertices and spheres moved by `placement`.
+void append_moved(const Mesh& from, const Part& part, const Affine& placement, const Place& where, Mesh& to) {
+  for (std::size_t s = part.first_sphere; s < part.last_sphere; ++s)
+    to.spheres.push_back(moved(from.spheres[s], placement, where));
   const std::size_t base = to.vertices.size();
   for (std::size_t v = part.first_vertex; v < part.last_vertex; ++v)
     to.vertices.push_back(placement.vertex(from.vertices[v]));
@@ -139,21 +158,30 @@ class PbrtReader {
     ++draft_.report.instances;
     for (const Part& part : found->second.parts) {
       draft_.require_room(text.where(), part.last_vertex - part.first_vertex, part.last_triangle - part.first_triangle);
-      append_moved(library_.mesh, part, matrix_.current() * part.placement, draft_.mesh);
+      draft_.require_room_for_spheres(text.where(), part.last_sphere - part.first_sphere);
+      append_moved(library_.mesh, part, matrix_.current() * part.placement, text.where(), draft_.mesh);
     }
   }
 
   void shape(PbrtText& text) {
     Draft& target = object_ != nullptr ? library_ : draft_;
-    Part part{target.mesh.vertices.size(), 0, target.mesh.triangles.size(), 0, matrix_.current()};
+    Part part{target.mesh.vertices.size(),
+              0,
+              target.mesh.triangles.size(),
+              0,
+              target.mesh.spheres.size(),
+              0,
+              matrix_.current()};
     append_pbrt_shape(text, folder_, target);
     part.last_vertex = target.mesh.vertices.size();
     part.last_triangle = target.mesh.triangles.size();
-    if (object_ != nullptr)
-      object_->parts.push_back(part);
-    else if (!(part.placement == Affine{}))
-      for (std::size_t v = part.first_vertex; v < part.last_vertex; ++v)
-        target.mesh.vertices[v] = part.placement.vertex(target.mesh.vertices[v]);
+    part.last_sphere = target.mesh.spheres.size();
+    if (object_ != nullptr) return object_->parts.push_back(part);
+    if (part.placement == Affine{}) return;
+    for (std::size_t v = part.first_vertex; v < part.last_vertex; ++v)
+      target.mesh.vertices[v] = part.placement.vertex(target.mesh.vertices[v]);
+    for (std::size_t s = part.first_sphere; s < part.last_sphere; ++s)
+      target.mesh.spheres[s] = moved(target.mesh.spheres[s], part.placement, text.where());
   }
 
   void camera(PbrtText& text) {

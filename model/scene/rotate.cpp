@@ -1,7 +1,5 @@
 #include "model/scene/rotate.h"
 
-#include <algorithm>
-
 #include "model/scene/turn.h"
 
 namespace ctu::scene {
@@ -28,17 +26,11 @@ void rotate(Scene& scene, const Vec3& degrees) {
   const auto about = [&](int axis) { return turn(static_cast<double>(degrees[axis]) / 360); };
   const Rotation rotation{{about(0), about(1), about(2)}};
   for (Vec3& vertex : scene.mesh.vertices) vertex = rotation(vertex);
+  for (Sphere& sphere : scene.mesh.spheres) sphere.centre = rotation(sphere.centre);
   scene.camera.eye = rotation(scene.camera.eye);
   scene.camera.target = rotation(scene.camera.target);
   scene.camera.up = rotation(scene.camera.up);
-  if (scene.mesh.triangles.empty()) return;
-  scene.lower = scene.upper = scene.mesh.vertices[scene.mesh.triangles.front()[0]];
-  for (const auto& triangle : scene.mesh.triangles)
-    for (const std::uint32_t vertex : triangle)
-      for (int axis = 0; axis < 3; ++axis) {
-        scene.lower[axis] = std::min(scene.lower[axis], scene.mesh.vertices[vertex][axis]);
-        scene.upper[axis] = std::max(scene.upper[axis], scene.mesh.vertices[vertex][axis]);
-      }
+  if (scene.mesh.primitives() != 0) measure_bounds(scene);
 }
 
 }  // namespace ctu::scene

@@ -6,8 +6,8 @@
 
 namespace ctu::scene {
 
-/// Turns vertices and camera about the x, then the y, then the z axis, by degrees; each coordinate is rounded to
-/// binary32 once. Whole multiples of 90 degrees are exact. Bounds follow.
+/// Turns vertices, spheres and camera about the x, then the y, then the z axis, by degrees; each coordinate is rounded
+/// to binary32 once. Whole multiples of 90 degrees are exact. Bounds follow.
 void rotate(Scene& scene, const Vec3& degrees);
 
 }  // namespace ctu::scene

@@ -1,4 +1,4 @@
-// A scene as everything after it sees it: triangles in world space, a camera, and how it was read.
+// A scene as everything after it sees it: triangles and spheres in world space, a camera, and how it was read.
 #pragma once
 
 #include <array>
@@ -8,13 +8,17 @@
 
 #include "model/base/hash.h"
 #include "model/numeric/vec3.h"
+#include "model/scene/sphere.h"
 
 namespace ctu::scene {
 
-/// Indexed triangles; a triangle's position in the list is its primitive id.
+/// Indexed triangles, and spheres. A triangle's position in its list is its primitive id; the ids of spheres follow.
 struct Mesh {
   std::vector<Vec3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Sphere> spheres = {};
+
+  std::size_t primitives() const { return triangles.size() + spheres.size(); }
 };
 
 struct Camera {
@@ -37,10 +41,13 @@ struct Scene {
   Mesh mesh;
   Camera camera;
   LoadReport report;
-  Vec3 lower, upper;  ///< bounds of all vertices that triangles use
+  Vec3 lower, upper;  ///< bounds of all spheres and of the vertices that triangles use
 };
 
-/// Identity of the geometry: the hash of vertices and triangles.
+/// Sets the scene's bounds from its mesh, which must have a primitive.
+void measure_bounds(Scene& scene);
+
+/// Identity of the geometry: the hash of vertices and triangles, and of spheres where there are any.
 Hash128 content_hash(const Mesh& mesh);
 
 }  // namespace ctu::scene

@@ -65,7 +65,7 @@ int paper_raydist_command(const PaperArgs& args) {
   std::uint64_t lost = 0;
   for (const ListedScene& listed : listed_scenes(scene_args)) {
     const Stopwatch watch;
-    const std::optional<scene::Scene> scene = load_listed(scene_args, listed);
+    const std::optional<scene::Scene> scene = load_listed(scene_args, listed, Primitives::Triangles);
     if (!scene) continue;
     results.push_back(measure_scene(listed, *scene, options, record.threads));
     for (const paper::LightResult& light : results.back().lights) lost += light.selection.lost;

@@ -46,6 +46,44 @@ TEST(Generate, counts_and_bits_are_those_on_record) {
   }
 }
 
+TEST(Generate, balls_of_the_sphereflake_touch_their_parent) {
+  const Scene scene = load("gen:balls?depth=3");
+  const std::vector<Sphere>& spheres = scene.mesh.spheres;
+  ASSERT_EQ(spheres.size(), 820u);
+  EXPECT_EQ(spheres[0], (Sphere{{0, 0, 0}, 0.5f}));
+  // Each is followed by its nine children with all that are below them.
+  struct Open {
+    Sphere ball;
+    int children;
+  };
+  std::vector<Open> open{{spheres[0], 0}};
+  std::size_t leaves = 0;
+  for (std::size_t i = 1; i < spheres.size(); ++i) {
+    while (open.back().children == 9) open.pop_back();
+    Open& parent = open.back();
+    ++parent.children;
+    double square = 0;
+    for (int a = 0; a < 3; ++a) {
+      const double apart = static_cast<double>(spheres[i].centre[a]) - parent.ball.centre[a];
+      square += apart * apart;
+    }
+    EXPECT_NEAR(std::sqrt(square), static_cast<double>(parent.ball.radius) + spheres[i].radius, 1e-7);
+    EXPECT_FLOAT_EQ(spheres[i].radius, parent.ball.radius / 3);
+    const bool last = open.size() == 3;
+    leaves += last;
+    if (!last) open.push_back({spheres[i], 0});
+  }
+  EXPECT_EQ(leaves, 729u);
+  EXPECT_EQ(scene.mesh.triangles.size(), 2u);
+  EXPECT_TRUE(scene.camera.from_file);
+}
+
+TEST(Generate, balls_have_the_bits_on_record) {
+  const Scene scene = load("gen:balls");
+  EXPECT_EQ(scene.mesh.spheres.size(), 7381u);
+  EXPECT_EQ(content_hash(scene.mesh).hex(), "42bb9145644b7ff4ce4b4f96f3c79b3b");
+}
+
 TEST(Generate, the_seed_decides_and_nothing_else) {
   const auto hash = [](const std::string& name) { return content_hash(load(name).mesh); };
   EXPECT_EQ(hash("gen:foliage?seed=1"), hash("gen:foliage"));

@@ -24,9 +24,25 @@ TEST_F(NffTest, polygons_and_the_view_are_read) {
 }
 
 TEST_F(NffTest, what_is_no_polygon_is_refused_by_name) {
-  expect_error(write("a.nff", std::string(kView) + "s 0 0 0 1\n"), "a.nff:9", "sphere");
   expect_error(write("b.nff", "c\n0 0 0 1\n0 0 1 1\n"), "b.nff:1", "cone");
   expect_error(write("c.nff", "blob 3\n"), "c.nff:1", "unknown statement 'blob'");
+}
+
+TEST_F(NffTest, spheres_come_after_the_polygons_and_grow_the_bounds) {
+  const Scene scene = load(write("a.nff", std::string(kView) + "s 0 0 1 2\np 3\n0 0 0\n1 0 0\n0 1 0\ns 5 0 0 -0.5\n"));
+  ASSERT_EQ(scene.mesh.triangles.size(), 1u);
+  ASSERT_EQ(scene.mesh.spheres.size(), 2u);
+  EXPECT_EQ(scene.mesh.spheres[0], (Sphere{{0, 0, 1}, 2}));
+  EXPECT_EQ(scene.mesh.spheres[1], (Sphere{{5, 0, 0}, 0.5f}));
+  EXPECT_EQ(scene.lower, (Vec3{-2, -2, -1}));
+  EXPECT_EQ(scene.upper, (Vec3{5.5f, 2, 3}));
+  EXPECT_EQ(load(write("b.nff", "s 0 0 1 2\n")).mesh.primitives(), 1u);
+}
+
+TEST_F(NffTest, wrong_spheres_are_errors) {
+  expect_error(write("a.nff", "s 0 0 1\n"), "a.nff", "");
+  expect_error(write("b.nff", "s 0 0 nan 1\n"), "b.nff:1", "'nan'");
+  expect_error(write("c.nff", "s 3e38 0 0 3e38\n"), "c.nff: sphere 0", "not finite");
 }
 
 TEST_F(NffTest, wrong_polygons_are_errors_with_their_line) {

@@ -154,10 +154,32 @@ TEST_F(PbrtTest, a_misspelt_statement_is_an_error_that_names_the_nearest) {
   }
 }
 
-TEST_F(PbrtTest, shapes_that_are_not_triangles_are_refused_by_name) {
-  expect_error(write("s.pbrt", "WorldBegin\n\nShape \"sphere\" \"float radius\" 3\n"), "s.pbrt:3", "sphere");
-  expect_error(write("l.pbrt", "WorldBegin\nShape \"loopsubdiv\" \"integer nlevels\" [1]\n"), "l.pbrt:2",
-               "Loop subdivision");
+TEST_F(PbrtTest, spheres_are_moved_by_what_keeps_them_round) {
+  const Scene scene = load(write("a.pbrt",
+                                 "WorldBegin\nShape \"sphere\"\nTranslate 1 2 3\nRotate 30 1 1 0\nScale 2 -2 2\n"
+                                 "Shape \"sphere\" \"float radius\" [3]\nObjectBegin \"o\"\nTranslate 1 0 0\n"
+                                 "Shape \"sphere\" \"float radius\" 1 \"float zmin\" -1\nObjectEnd\n"
+                                 "AttributeBegin\nScale 0.5 0.5 0.5\nObjectInstance \"o\"\nAttributeEnd\n"));
+  ASSERT_EQ(scene.mesh.spheres.size(), 3u);
+  EXPECT_EQ(scene.mesh.spheres[0], (Sphere{{0, 0, 0}, 1}));
+  EXPECT_EQ(scene.mesh.spheres[1].centre, (Vec3{1, 2, 3}));
+  EXPECT_FLOAT_EQ(scene.mesh.spheres[1].radius, 6);
+  EXPECT_FLOAT_EQ(scene.mesh.spheres[2].radius, 2);  // the object's scale of 2 and the instance's, 2 * 0.5
+  EXPECT_TRUE(scene.mesh.triangles.empty());
+}
+
+TEST_F(PbrtTest, spheres_that_are_cut_or_not_round_are_errors) {
+  expect_error(write("a.pbrt", "WorldBegin\nScale 1 1 1.001\nShape \"sphere\"\n"), "a.pbrt:3", "ellipsoid");
+  expect_error(write("b.pbrt", "WorldBegin\nTransform [1 0 0 0 1 1 0 0 0 0 1 0 0 0 0 1]\nShape \"sphere\"\n"),
+               "b.pbrt:3", "ellipsoid");
+  expect_error(write("c.pbrt", "WorldBegin\nShape \"sphere\" \"float phimax\" [180]\n"), "c.pbrt:2",
+               "part of a sphere");
+  expect_error(write("d.pbrt", "WorldBegin\nShape \"sphere\" \"float zmin\" [0]\n"), "d.pbrt:2", "part of a sphere");
+  expect_error(write("e.pbrt", "WorldBegin\nShape \"sphere\" \"float radius\" [1 2]\n"), "e.pbrt:2",
+               "one finite number");
+}
+
+TEST_F(PbrtTest, other_shapes_are_refused_by_name) {
   expect_error(write("d.pbrt", "WorldBegin\nShape \"disk\"\n"), "d.pbrt:2", "'disk' is not read");
 }
 

@@ -189,11 +189,23 @@ TEST_P(SharedScenes, loads_with_the_counts_and_the_box_of_its_readme) {
 INSTANTIATE_TEST_SUITE_P(Readme, SharedScenes, ::testing::ValuesIn(kScenes),
                          [](const auto& info) { return std::string(info.param.name); });
 
-TEST_F(SharedFiles, scenes_of_spheres_and_subdivision_are_refused_clearly) {
-  expect_error((folder_ / "balls/balls.nff").string(), "balls.nff:21", "spheres are not read yet");
-  expect_error((folder_ / "killeroo/killeroo-simple.pbrt").string(), "killeroo-simple.pbrt:24",
-               "spheres are not read yet");
-  expect_error((folder_ / "killeroo/geometry/killeroo.pbrt").string(), "killeroo.pbrt:", "Loop subdivision");
+TEST_F(SharedFiles, the_killeroo_is_one_level_finer_than_its_control_mesh) {
+  const Scene scene = load((folder_ / "killeroo/killeroo-simple.pbrt").string());
+  EXPECT_EQ(scene.mesh.triangles.size(), 2u * 4 * 8316 + 4);
+  ASSERT_EQ(scene.mesh.spheres.size(), 1u);  // the light
+  EXPECT_EQ(scene.mesh.spheres[0], (Sphere{{150, 120, 20}, 3}));
+}
+
+TEST_F(SharedFiles, the_generated_balls_are_the_databases_own) {
+  const Mesh filed = load((folder_ / "balls/balls.nff").string()).mesh, made = load("gen:balls").mesh;
+  EXPECT_EQ(filed.triangles, made.triangles);
+  EXPECT_EQ(filed.vertices, made.vertices);
+  ASSERT_EQ(filed.spheres.size(), made.spheres.size());
+  for (std::size_t i = 0; i < made.spheres.size(); ++i) {  // in the same order, to the file's six digits
+    EXPECT_NEAR(filed.spheres[i].radius, made.spheres[i].radius, 2e-6f * made.spheres[i].radius) << "sphere " << i;
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(filed.spheres[i].centre[axis], made.spheres[i].centre[axis], 2e-6f) << "sphere " << i;
+  }
 }
 
 TEST_F(SharedFiles, the_generated_tetra_is_the_databases_own) {

@@ -125,6 +125,13 @@ std::vector<Case> scene_files() {
        "8589934590 vertices need more than the 0 bytes that are left"},
       {"many.nff", "p 2000000000\n0 0 0\n", "record many.nff -o x.ctut", "many.nff:1",
        "a polygon with 2000000000 corners"},
+      {"flat.pbrt", "WorldBegin\nScale 1 1 2\nShape \"sphere\"\n", "culling flat.pbrt", "flat.pbrt:3",
+       "makes an ellipsoid of it"},
+      {"fin.pbrt",
+       "WorldBegin\nShape \"loopsubdiv\" \"point P\" [0 0 0 1 0 0 0 1 0 0 0 1 0 0 2] "
+       "\"integer indices\" [0 1 2 0 1 3 0 1 4]\n",
+       "culling fin.pbrt", "fin.pbrt:2", "more than two triangles of the control mesh share edge 0 1"},
+      {"ball.nff", "s 0 0 0 1\n", "record ball.nff -o x.ctut", "ball", "for which the timed unit has no test"},
       {"other.list", "other.list\n", "record other.list -o x.ctut", "other.list", "'.list' is no scene format we know"},
       {"cut.obj.zst", binary(0xFD2FB528u), "record cut.obj.zst -o x.ctut", "cut.obj.zst: byte 4",
        "ends inside a zstd frame"},

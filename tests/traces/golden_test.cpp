@@ -49,6 +49,19 @@ TEST(CommittedTrace, it_is_read_as_it_was_written) {
   }
 }
 
+/// Recorded before scenes could have spheres: image, rays, hits and steps without any are the same bytes.
+TEST(CommittedTrace, a_scene_without_spheres_has_the_trace_it_had_before_there_were_any) {
+  const test::TemporaryFolder folder;
+  for (const auto& [name, hash] : {std::pair{"gen:tetra?depth=4", "d7d8b37f3c96de21bbadac9d94b83820"},
+                                   {"gen:hair-ball?strands=50", "93d63b5375af025d9b4708da6dc9fa0b"}}) {
+    RecordOptions options;
+    options.rays.kind = RayOptions::Rays::Diffuse;
+    options.rays.width = 32;
+    options.rays.height = 18;
+    EXPECT_EQ(record(scene::load(name), options, folder.file("a.ctut")).hash, hash) << name;
+  }
+}
+
 TEST(CommittedTrace, todays_reference_walks_its_rays_step_by_step_as_recorded) {
   const TraceReader reader(kPath);
   const accel::Image image = reader.read_image();
