@@ -90,7 +90,7 @@ struct Parsed {
   HeatmapArgs heatmap;
   TablesArgs tables;
   AreaArgs area;
-  PaperArgs paper, paper_raydist;
+  PaperArgs paper, paper_raydist, paper_raybox;
   PaperPacketsArgs paper_packets;
   TraceArgs trace;
   UnitArgs config;
@@ -323,6 +323,21 @@ void add_paper_packets(CLI::App& paper, Parsed& parsed) {
   command->callback([&] { parsed.exit_code = paper_packets_command(args); });
 }
 
+void add_paper_raybox(CLI::App& paper, Parsed& parsed) {
+  auto* command =
+      paper.add_subcommand("raybox", "ray-box culling: Tables 2 and 3 and the numbers of Figs. 4 to 7 as Markdown");
+  PaperArgs& args = parsed.paper_raybox;
+  SceneArgs& scene = args.scene;
+  scene.spp = 0;
+  command->add_option("scene", scene.scenes, "gen:balls, killeroo, buddha or sponza; none: all that are at hand");
+  add_index_option(*command, scene);
+  command->add_flag("--quick", args.quick, "a fifth of the paper's width and height, and 1 sample a pixel");
+  command->add_option("--spp", scene.spp, "samples per pixel, instead of the paper's");
+  command->add_option("--seed", scene.seed, "seed of every random number")->capture_default_str();
+  command->add_option("--threads", scene.threads, "0: one for each core")->capture_default_str();
+  command->callback([&] { parsed.exit_code = paper_raybox_command(args); });
+}
+
 void add_paper(CLI::App& app, Parsed& parsed) {
   auto* command =
       app.add_subcommand("paper", "the evaluation of a paper with our scenes, published values beside ours");
@@ -349,6 +364,7 @@ void add_paper(CLI::App& app, Parsed& parsed) {
   subspace->add_option("--threads", scene.threads, "0: one for each core")->capture_default_str();
   subspace->callback([&] { parsed.exit_code = paper_subspace_command(args); });
   add_paper_raydist(*command, parsed);
+  add_paper_raybox(*command, parsed);
 }
 
 void add_trace(CLI::App& app, Parsed& parsed) {

@@ -199,6 +199,7 @@ int area_command(const AreaArgs& args);
 int paper_packets_command(const PaperPacketsArgs& args);
 int paper_subspace_command(const PaperArgs& args);
 int paper_raydist_command(const PaperArgs& args);
+int paper_raybox_command(const PaperArgs& args);
 int trace_info_command(const TraceArgs& args);
 int trace_head_command(const TraceArgs& args);
 int trace_slice_command(const TraceArgs& args);

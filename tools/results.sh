@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md and docs/numerics.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper packets variants compression precision tables designs area numerics raydist; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper packets raybox variants compression precision tables designs area numerics raydist; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets variants compression precision tables designs area numerics raydist)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox variants compression precision tables designs area numerics raydist)
 
 page=docs/results.md
 plots=docs/plots
@@ -48,6 +48,13 @@ paper() {
   put paper
   mkdir -p "$plots"
   cp "$scratch"/subspace/*.svg "$plots"
+}
+
+raybox() {
+  local quick=(--quick)
+  [ "$full" = 0 ] || quick=()
+  keep raybox "$program" paper raybox --index "$index" "${quick[@]}"
+  put raybox
 }
 
 # One row: a scene made more like the paper's, or less, at R = 4 and 6; of $size pixels.
@@ -235,7 +242,7 @@ designs() {
     echo "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |"
     for scene in hair-ball curly-hair straight-hair tilted-quads foliage tetra; do walk "gen:$scene" "gen:$scene"; done
     while read -r name path; do
-      case $name in balls | killeroo) continue ;; esac  # spheres and subdivision surfaces: refused
+      case $name in balls | killeroo) continue ;; esac  # spheres: the unit has no test for them
       walk "$name" "$(dirname "$index")/$path"
     done <"$index"
   } >"$scratch/designs"
@@ -335,8 +342,8 @@ raydist() {
 
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | packets | variants | designs | tables | compression | precision | area | numerics | raydist) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, packets, variants, designs, tables, compression, precision, area, numerics or raydist" >&2; exit 2 ;;
+    culling | auto | paper | packets | raybox | variants | designs | tables | compression | precision | area | numerics | raydist) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, packets, raybox, variants, designs, tables, compression, precision, area, numerics or raydist" >&2; exit 2 ;;
   esac
 done
 exit "$failed"

@@ -105,7 +105,7 @@ int paper_packets_command(const PaperPacketsArgs& args) {
   std::uint64_t wrong = 0;
   for (const ListedScene& listed : listed_scenes(scene_args)) {
     const Stopwatch watch;
-    const std::optional<scene::Scene> scene = load_listed(scene_args, listed);
+    const std::optional<scene::Scene> scene = load_listed(scene_args, listed, Primitives::Triangles);
     if (!scene) continue;
     const accel::Bvh4 bvh = accel::build(scene->mesh, rays_of(scene_args, sweeps.front().rays).build);
     for (paper::PacketSweep& sweep : sweeps) {
