@@ -33,7 +33,7 @@ struct CheckRow {
   std::string name;
   Kind kind = Kind::Identity;
   std::uint64_t rays = 0;
-  HitChanges changed;              ///< of all designs together, None included
+  HitChanges changed{};            ///< of all designs together, None included
   std::uint64_t declined = 0;      ///< reversed: triangles exactly met whose own rounded test declines the way back
   std::uint64_t not_compared = 0;  ///< rays of which the same bits are not promised (keeps_bits)
   Same same = Same::NotPromised;
