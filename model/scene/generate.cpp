@@ -194,9 +194,10 @@ std::array<Vector64, 9> sphereflake_directions() {
   return all;
 }
 
-/// `v` under the rotation that takes +z to the unit vector `z` by the shortest way.
+/// `v` under the rotation that takes +z to the unit vector `z` by the shortest way. Straight down any way is as short,
+/// and SPD turns about y; where rounding hides that a direction is straight down, SPD leaves the way to it.
 Vector64 turned_with(const Vector64& z, const Vector64& v) {
-  if (z.z <= -1) return {-v.x, v.y, -v.z};    // any way is as short; SPD turns about y
+  if (z.z <= -1 + 1e-9) return {-v.x, v.y, -v.z};
   const Vector64 axis = cross({0, 0, 1}, z);  // of length sin
   return v * z.z + cross(axis, v) + axis * (dot(axis, v) / (1 + z.z));
 }
