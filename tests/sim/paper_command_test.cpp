@@ -76,13 +76,16 @@ TEST_F(PaperCommandTest, without_gnuplot_says_what_to_install_and_keeps_the_data
 TEST_F(PaperCommandTest, an_index_gives_names_to_scenes) {
   write_text(folder_.path() / "one.nff", "p 3\n0 0 0\n1 0 0\n0 1 1\n");
   write_text(folder_.path() / "ball.nff", "s 0 0 0 1\n");
-  write_text(folder_.path() / "index.txt", "triangle one.nff\nball ball.nff\n");
-  const Outcome named = paper("--index index.txt triangle");
-  EXPECT_EQ(named.exit_code, 0) << named.err;
-  EXPECT_NE(named.out.find("| triangle |"), std::string::npos);
-  const Outcome refused = paper("--index index.txt ball");
+  write_text(folder_.path() / "cut.nff", "p 3\n0 0 0\n1 0\n");
+  write_text(folder_.path() / "index.txt", "triangle one.nff\nball ball.nff\nbroken cut.nff\n");
+  for (const std::string name : {"triangle", "ball"}) {
+    const Outcome named = paper("--index index.txt " + name);
+    EXPECT_EQ(named.exit_code, 0) << named.err;
+    EXPECT_NE(named.out.find("| " + name + " |"), std::string::npos) << named.out;
+  }
+  const Outcome refused = paper("--index index.txt broken");
   EXPECT_EQ(refused.exit_code, 2) << refused.err;
-  EXPECT_NE(refused.err.find("ball.nff"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("cut.nff"), std::string::npos) << refused.err;
 }
 
 TEST_F(PaperCommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
