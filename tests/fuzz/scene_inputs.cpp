@@ -48,31 +48,37 @@ const InputFolder& folder() {
 }
 
 void check_mesh(const scene::Scene& scene) {
-  require(!scene.mesh.triangles.empty(), "a scene has triangles");
+  require(scene.mesh.primitives() > 0, "a scene has triangles or spheres");
   for (const auto& triangle : scene.mesh.triangles)
     for (const std::uint32_t corner : triangle)
       require(corner < scene.mesh.vertices.size(), "a triangle's corners are vertices of the mesh");
   for (const Vec3& v : scene.mesh.vertices)
     require(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z), "vertices are finite");
+  for (const scene::Sphere& s : scene.mesh.spheres)
+    require(std::isfinite(s.centre.x) && std::isfinite(s.centre.y) && std::isfinite(s.centre.z) &&
+                std::isfinite(s.radius) && s.radius >= 0,
+            "spheres are finite");
 }
 
-/// Every hit must be of a triangle that is there, within the ray.
+/// Every hit must be of a primitive that is there, within the ray.
 void check_hits(const std::vector<intersect::Ray>& rays, const std::vector<intersect::Hit>& hits,
                 const scene::Mesh& mesh) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].primitive == intersect::kNoPrimitive) continue;
-    require(hits[i].primitive < mesh.triangles.size(), "a hit names a triangle of the scene");
+    require(hits[i].primitive < mesh.primitives(), "a hit names a primitive of the scene");
     require(hits[i].t >= rays[i].tmin && hits[i].t <= rays[i].tmax, "a hit lies within its ray");
   }
 }
 
-/// What `record` does with a scene, on one thread and a few rays.
+/// What `record` and `culling` do with a scene, on one thread and a few rays; images hold triangles alone.
 void use(const scene::Scene& scene) {
   const accel::Bvh4 bvh = accel::build(scene.mesh, {});
   const cull::MaskOptions options;
   const traces::MaskSet set = traces::make_masks(bvh, options, 1);
-  accel::validate(traces::image_of(bvh, &set, {}));
-  accel::validate(traces::image_of(bvh, nullptr, {}));
+  if (scene.mesh.spheres.empty()) {
+    accel::validate(traces::image_of(bvh, &set, {}));
+    accel::validate(traces::image_of(bvh, nullptr, {}));
+  }
   const cull::MaskTester tester(cull::Design::Comparators, options);
   const reference::Traversal traversal(bvh, &set.masks, tester);
   for (const auto kind : {traces::RayOptions::Rays::Diffuse, traces::RayOptions::Rays::Shadow,
@@ -94,7 +100,7 @@ void load_and_use(const std::string& name) {
   accepts([&] {
     const scene::Scene scene = scene::load(name);
     check_mesh(scene);
-    if (scene.mesh.triangles.size() <= kMostBuilt) use(scene);
+    if (scene.mesh.primitives() <= kMostBuilt) use(scene);
   });
 }
 
@@ -106,7 +112,7 @@ void load_scene(const char* extension, Input input) {
 
 void load_generated(Input input) {
   constexpr std::size_t kRefused = 8;  // digits: numbers of so many are beyond every limit
-  const std::size_t kept = as_text(input).starts_with("tetra") ? 1 : 2;
+  const std::size_t kept = as_text(input).starts_with("tetra") || as_text(input).starts_with("balls") ? 1 : 2;
   std::string name = "gen:";
   std::string digits;
   const auto flush = [&] {
