@@ -36,5 +36,5 @@ ctu_test(test_rtl_box_test
   LABEL property)
 set(box_test_checked ${rtl_float_sources} ${box_test_sources} ${box_decode_sources} ${rtl}/tokens.svh
   ${rtl}/pipe_control.sv ${rtl}/box_test.sv)
-rtl_check(box_test SOURCES ${box_test_checked} PARTS_CHECKED)
+rtl_check(box_test SOURCES ${box_test_checked} WORD_LEVEL)
 rtl_check(box_test SOURCES ${box_test_checked} VARIANT boxes-8 PARAMETERS BOX_BITS=8)

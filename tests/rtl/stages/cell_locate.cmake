@@ -36,5 +36,5 @@ ctu_test(test_rtl_locate_lanes
 # What these are made of is checked within them.
 rtl_check(float_fraction SOURCES ${rtl_float_sources} ${rtl}/float/float_fraction.sv)
 rtl_check(float_key SOURCES ${rtl}/float/float_key.sv)
-rtl_check(comparator_lane SOURCES ${comparator_lane_sources})
-rtl_check(cell_locate SOURCES ${cell_locate_sources} PARTS_CHECKED)
+rtl_check(comparator_lane SOURCES ${comparator_lane_sources} WORD_LEVEL)
+rtl_check(cell_locate SOURCES ${cell_locate_sources} WORD_LEVEL)

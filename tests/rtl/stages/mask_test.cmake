@@ -56,7 +56,7 @@ rtl_check(table_memory SOURCES ${rtl}/table_bank.sv ${rtl}/table_turns.sv ${rtl}
 rtl_check(key_row SOURCES ${rtl}/mirror_fold.sv ${rtl}/reverse_fold.sv ${rtl}/key_row.sv)
 rtl_check(mask_lane SOURCES ${rtl}/mask_mirror.sv ${rtl}/mask_lane.sv)
 set(mask_test_checked SOURCES ${rtl_flow_sources} ${mask_test_sources} ${rtl}/mask_test.sv)
-rtl_check(mask_test ${mask_test_checked} PARTS_CHECKED)
+rtl_check(mask_test ${mask_test_checked} WORD_LEVEL)
 # Each structure once, with small tables.
 set(small R=2 R_RAY=2 DISTINCT=50)
 foreach(design IN ITEMS mask-lut=2 dedup=4 comparators=6)

@@ -21,4 +21,4 @@ ctu_test(test_rtl_ray_queue
   DEPENDS ctu_pipeline_test_support ${ray_queue_models}
   LABEL property)
 
-rtl_check(ray_queue SOURCES ${ray_queue_sources})
+rtl_check(ray_queue SOURCES ${ray_queue_sources} WORD_LEVEL)

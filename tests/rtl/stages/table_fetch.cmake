@@ -32,7 +32,7 @@ rtl_check(lane_rows SOURCES ${lane_rows_sources})
 rtl_check(row_buffer SOURCES ${rtl}/row_buffer.sv)
 # Each structure once, with small tables.
 set(table_fetch_checked SOURCES ${table_fetch_sources})
-rtl_check(table_fetch ${table_fetch_checked} PARTS_CHECKED)
+rtl_check(table_fetch ${table_fetch_checked} WORD_LEVEL)
 rtl_check(table_fetch ${table_fetch_checked} VARIANT projection.compressed
   PARAMETERS R=2 R_RAY=2 ENTRIES=20 PROJECTION_TABLES=1 PORTS=2)
 rtl_check(table_fetch ${table_fetch_checked} VARIANT mask-lut.wide PARAMETERS DESIGN=2 R=7 R_RAY=2 PORTS=2)

@@ -21,4 +21,4 @@ ctu_test(test_rtl_traversal_stack
   DEPENDS ctu_pipeline_test_support ${traversal_stack_models}
   LABEL property)
 
-rtl_check(traversal_stack SOURCES ${traversal_stack_sources})
+rtl_check(traversal_stack SOURCES ${traversal_stack_sources} WORD_LEVEL)

@@ -21,4 +21,4 @@ ctu_test(test_rtl_triangle_test
   DEPENDS ctu_pipeline_test_support ${triangle_libraries} ${triangle_intersect_mutants} ${triangle_test_mutants}
   LABEL property)
 list(REMOVE_ITEM triangle_test_sources ${keep_modules})
-rtl_check(triangle_test SOURCES ${triangle_test_sources})
+rtl_check(triangle_test SOURCES ${triangle_test_sources} WORD_LEVEL)
