@@ -1,5 +1,7 @@
 #include "sim/cli.h"
 
+#include <cstdlib>
+
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -8,6 +10,17 @@
 
 namespace ctu::sim {
 namespace {
+
+/// A number that is not less than `least`, refused in words: CLI11's own validators print the largest double.
+CLI::Validator at_least(int least) {
+  const auto check = [least](const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    return end != text.c_str() && value >= least ? std::string()
+                                                 : fmt::format("{}: give a number from {} on", text, least);
+  };
+  return CLI::Validator(check, "");
+}
 
 void add_index_option(CLI::App& app, SceneArgs& args) {
   app.add_option("--index", args.index,
@@ -210,6 +223,7 @@ void add_precision(CLI::App& app, Parsed& parsed) {
   command->add_option("--box-bits", args.box_bits, "list of bits of a coordinate; the first is what others are against")
       ->capture_default_str();
   command->add_option("--sample", args.rays, "rays that are simulated for each scene, about; 0: all")
+      ->check(at_least(0))
       ->capture_default_str();
   command->add_option("--out", args.output, "folder for the plot and its data");
   command->add_flag("--markdown", args.markdown, "print the rows of a Markdown table");
@@ -307,13 +321,14 @@ void add_paper_packets(CLI::App& paper, Parsed& parsed) {
       ->capture_default_str();
   command->add_option("--size", scene.size, "picture size in pixels, WxH")->capture_default_str();
   command->add_option("--sample", args.sample, "rays of each kind, about so many of the picture's; 0: all")
+      ->check(at_least(0))
       ->capture_default_str();
   command->add_option("--packet", args.size, "rays of a packet, 4 to 64")->capture_default_str();
   command->add_option("--window", args.window, "consecutive rays that packets are formed from")->capture_default_str();
   command->add_option("--forming", args.forming, "order, direction or origin: how the window is sorted")
       ->capture_default_str();
   command->add_option("--least", args.least_rays, "rays at one place that are asked about together; fewer go on alone")
-      ->check(CLI::PositiveNumber)
+      ->check(at_least(1))
       ->capture_default_str();
   command->add_option("--bounces", scene.bounces, "diffuse bounces after the primary ray, at most")
       ->capture_default_str();
@@ -421,7 +436,7 @@ void add_check(CLI::App& app, Parsed& parsed) {
       ->capture_default_str();
   command->add_option("--generator", args.generators, "only these: NAME,...; --list prints all")->delimiter(',');
   command->add_option("--scene", args.scene, "only this scene of each generator, as a failure names it")
-      ->check(CLI::NonNegativeNumber);
+      ->check(at_least(0));
   command->add_option("--design,--designs", args.designs, "mask-test designs, drawn for each scene; none: all");
   command->add_option("--r", args.resolution, "R: cells per axis of an object mask; 0: drawn from 2..8")
       ->capture_default_str();

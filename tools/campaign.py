@@ -26,7 +26,8 @@ def part_file(results, engine, seed):
 
 
 def run_part(build, results, engine, seed, cases):
-    """One part, unless its result is there. Written under another name first: a result is a whole one."""
+    """One part, unless its result is there. Written under another name and renamed when the program has ended by
+    itself: what an interrupted part leaves is no result, and the part is asked again."""
     result = part_file(results, engine, seed)
     if result.exists():
         return
@@ -36,10 +37,9 @@ def run_part(build, results, engine, seed, cases):
     print(" ".join(command), flush=True)
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     print("\n".join(done.stdout.splitlines()[-2:]), flush=True)
-    if unfinished.exists():
-        unfinished.rename(result)
     if done.returncode not in (0, 1):
         sys.exit(f"{engine}, seed {seed}: ctusim check ended with {done.returncode}")
+    unfinished.rename(result)
 
 
 def show(results):

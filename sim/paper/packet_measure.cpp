@@ -9,8 +9,8 @@
 
 #include "model/base/parallel.h"
 #include "model/numeric/affine.h"
+#include "sim/exact_meeting.h"
 #include "sim/hit_judge.h"
-#include "tests/oracle/ray_oracle.h"
 
 namespace ctu::sim::paper {
 namespace {
@@ -30,11 +30,6 @@ using numeric::OperationMeter;
 using reference::PacketPlace;
 
 constexpr std::size_t kWindowsPerChunk = 8;
-
-bool meets(oracle::RayOracle& ray, const Box& box) { return ray.meets_box(box.lo, box.hi); }
-bool meets(oracle::RayOracle& ray, const Triangle& t) {
-  return ray.meets_triangle(t.vertex[0], t.vertex[1], t.vertex[2]);
-}
 
 /// In exact arithmetic, within what each ray that is here may still reach.
 template <class Primitive>

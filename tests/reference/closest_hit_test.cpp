@@ -16,27 +16,16 @@
 #include "model/numeric/round.h"
 #include "model/scene/load.h"
 #include "tests/oracle/seed.h"
+#include "tests/reference/brute_force.h"
 
 namespace {
 
 using namespace ctu;
 using intersect::Hit;
 using intersect::Ray;
+using test::brute_force;
 
 constexpr float kForever = std::numeric_limits<float>::infinity();
-
-Hit brute_force(const scene::Mesh& mesh, const Ray& ray) {
-  Hit best{ray.tmax, 0, 0, intersect::kNoPrimitive};
-  const intersect::PreparedRay prepared = intersect::prepare_ray(ray);
-  if (!prepared.valid) return best;
-  for (std::uint32_t id = 0; id < mesh.triangles.size(); ++id) {
-    const auto& c = mesh.triangles[id];
-    const auto r =
-        intersect::triangle_test(prepared, mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]], best.t);
-    if (r.hit && intersect::replaces(r.t, id, best)) best = {r.t, r.u, r.v, id};
-  }
-  return best;
-}
 
 std::string describe(const Ray& ray) {
   std::string text = "ray bits";

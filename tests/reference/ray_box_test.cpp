@@ -17,6 +17,7 @@
 #include "sim/hit_judge.h"
 #include "tests/cull/epsilon_ray_box.h"
 #include "tests/oracle/seed.h"
+#include "tests/reference/brute_force.h"
 #include "traces/ray_generator.h"
 
 namespace {
@@ -27,14 +28,7 @@ using cull::RayBox;
 using intersect::Hit;
 using intersect::Ray;
 using reference::KdCounts;
-
-Hit brute_force(const scene::Mesh& mesh, const Ray& ray) {
-  const intersect::PreparedRay prepared = intersect::prepare_ray(ray);
-  Hit best{ray.tmax, 0, 0, intersect::kNoPrimitive};
-  for (std::uint32_t id = 0; id < mesh.primitives(); ++id)
-    reference::test_primitive<true>(prepared, accel::leaf_record(mesh, id), best);
-  return best;
-}
+using test::brute_force;
 
 std::string show(const Ray& ray) {
   std::ostringstream text;

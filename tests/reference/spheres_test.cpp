@@ -17,31 +17,16 @@
 #include "model/scene/load.h"
 #include "tests/oracle/ray_oracle.h"
 #include "tests/oracle/seed.h"
+#include "tests/reference/brute_force.h"
 
 namespace {
 
 using namespace ctu;
 using intersect::Hit;
 using intersect::Ray;
+using test::brute_force;
 
 constexpr float kForever = std::numeric_limits<float>::infinity();
-
-Hit brute_force(const scene::Mesh& mesh, const Ray& ray) {
-  Hit best{ray.tmax, 0, 0, intersect::kNoPrimitive};
-  const intersect::PreparedRay prepared = intersect::prepare_ray(ray);
-  for (std::uint32_t id = 0; id < mesh.primitives(); ++id) {
-    const accel::LeafTriangle p = accel::leaf_record(mesh, id);
-    intersect::TriangleResult r;
-    if (p.is_sphere()) {
-      const auto s = intersect::sphere_test(prepared, p.sphere(), best.t);
-      r = {s.hit, s.t, 0, 0};
-    } else {
-      r = intersect::triangle_test(prepared, p.v0, p.v1, p.v2, best.t);
-    }
-    if (r.hit && intersect::replaces(r.t, id, best)) best = {r.t, r.u, r.v, id};
-  }
-  return best;
-}
 
 bool exactly_met(const scene::Mesh& mesh, const Ray& ray, std::uint32_t id) {
   oracle::RayOracle exact(ray);

@@ -154,6 +154,10 @@ std::vector<Case> options() {
       record("--size 0x0", "rays", "width is 0"),
       record("--size 32769x1", "rays", "width is 32769"),
       record("--size 1e9x1e9", "--size", "\"1e9\" is not a number"),
+      {"", "", "paper packets gen:tetra --packet 65", "packet size", "65 rays"},
+      {"", "", "paper packets gen:tetra --window 1", "packet window", "fewer than a packet's 16"},
+      {"", "", "paper packets gen:tetra --forming foo", "--forming", "unknown value \"foo\""},
+      {"", "", "check --packets --budget 10 --engine cycle", "--packets", "no engine"},
       record("--spp 0", "rays", "samples_per_pixel is 0"),
       record("--spp 2000000", "rays", "samples_per_pixel is 2000000"),
       record("--bounces 5000", "rays", "bounces is 5000"),
@@ -182,6 +186,10 @@ std::vector<Case> unparsed_options() {
       {"", "", "record gen:tetra -o x.ctut --rays random --count 1e18", "--count", "1e18"},
       {"", "", "record gen:tetra -o x.ctut --r 99999999999999999999", "--r", "99999999999999999999"},
       {"", "", "record gen:tetra gen:tetra -o x.ctut", "scene", "At Most 1"},
+      {"", "", "paper packets gen:tetra --sample -1", "--sample", "give a number from 0 on"},
+      {"", "", "paper packets gen:tetra --least 0", "--least", "give a number from 1 on"},
+      {"", "", "precision gen:tetra --sample -1", "--sample", "give a number from 0 on"},
+      {"", "", "check --scene -1 --budget 10", "--scene", "give a number from 0 on"},
       {"", "", "record gen:tetra -o x.ctut --no-such-option", "--no-such-option", "not expected"},
   };
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "sim/check/packets/packet_campaign.h"
-#include "tests/oracle/ray_oracle.h"
+#include "sim/exact_meeting.h"
 
 namespace ctu::sim::check {
 namespace {
@@ -14,14 +14,7 @@ using cull::packet::Lines;
 using cull::packet::Method;
 using cull::packet::Reach;
 using intersect::Ray;
-
-bool meets(oracle::RayOracle& ray, const cull::packet::Box& box) { return ray.meets_box(box.lo, box.hi); }
-bool meets(oracle::RayOracle& ray, const cull::packet::Triangle& t) {
-  return ray.meets_triangle(t.vertex[0], t.vertex[1], t.vertex[2]);
-}
-bool meets(oracle::RayOracle& ray, const cull::packet::Sphere& sphere) {
-  return ray.meets_sphere(sphere.centre, sphere.radius);
-}
+using sim::meets;
 
 /// The triangle a part of its way along; false where a coordinate there is no binary32 number.
 bool moved(const cull::packet::MovingTriangle& moving, double part, cull::packet::Triangle& out) {
