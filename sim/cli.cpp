@@ -134,6 +134,8 @@ void add_record(CLI::App& app, Parsed& parsed) {
       ->add_option("--box-bits", parsed.record.box_bits,
                    "of each coordinate of a node's boxes: 32, or 16, 12 or 8 of boxes rounded outward")
       ->capture_default_str();
+  command->add_flag("--primitive-boxes", parsed.record.primitive_boxes,
+                    "a box beside every primitive, with which the unit culls primitives of a leaf before testing them");
   command
       ->add_option("--triangle-align", parsed.record.triangle_alignment_bytes,
                    "bytes that a triangle starts at a multiple of")

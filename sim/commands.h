@@ -53,6 +53,7 @@ struct RecordArgs {
   bool strip_full = false;     ///< nodes whose masks are all full carry none
   std::uint32_t node_alignment_bytes = 4, triangle_alignment_bytes = 4;
   std::uint32_t box_bits = 32;  ///< of a coordinate of a node's boxes
+  bool primitive_boxes = false;
 };
 
 struct RunArgs {

@@ -101,6 +101,7 @@ traces::RecordOptions recorder_options(const RecordArgs& args) {
   options.layout.triangle_alignment_bytes = args.triangle_alignment_bytes;
   require_box_bits(args.box_bits);
   options.layout.box_bits = args.box_bits;
+  options.layout.primitive_boxes = args.primitive_boxes;
   options.strand_thickness = static_cast<float>(args.scene.strand_thickness);
   return options;
 }
@@ -137,7 +138,6 @@ int record_command(const RecordArgs& args) {
   const pipeline::UnitConfig config = load_config(args.unit.config_path, args.unit.sets);
   if (args.culling == "auto") require_possible(config.mask_test.design, options.masks);
   const scene::Scene scene = load_scene(args.scene, args.scene.scenes.front());
-  require_triangles(scene);
   traces::RecordSummary summary;
   {
     Progress bar("recording", 0, "paths");
@@ -179,6 +179,9 @@ int trace_info_command(const TraceArgs& args) {
   row("image", fmt::format("{} nodes of {} bytes, {} triangles of {} bytes, depth {}", m.image.shape.node_count,
                            m.image.shape.node_stride_bytes, m.image.shape.triangle_count,
                            m.image.shape.triangle_stride_bytes, m.image.shape.depth));
+  if (m.image.shape.sphere_count != 0)
+    row("spheres", fmt::format("{} of the triangles are spheres", m.image.shape.sphere_count));
+  if (reader.has_primitive_boxes()) row("primitive boxes", "beside every primitive, for ray-box culling");
   if (const std::uint32_t bits = m.image.shape.layout.box_bits; bits != accel::kFullBoxBits)
     row("boxes", fmt::format("{} bits for each coordinate, in the frame of their node", bits));
   if (!m.cut_from.empty()) row("cut from", fmt::format("{}, from ray {}", m.cut_from, m.cut_first));

@@ -46,7 +46,7 @@ void gather(const std::uint8_t* __restrict from, std::size_t elements, std::uint
 }  // namespace
 
 std::string to_string(Per per) {
-  static constexpr const char* kNames[] = {"ray", "step", "key", "word", ""};
+  static constexpr const char* kNames[] = {"ray", "step", "key", "leaf", "word", ""};
   return kNames[static_cast<int>(per)];
 }
 
@@ -83,7 +83,7 @@ Section hits_section() {
            {"primitive", "u32", Per::Ray, "", "triangle's id in the scene; 4294967295: no hit"}}};
 }
 
-Section steps_section(const std::string& design, bool with_keys) {
+Section steps_section(const std::string& design, bool with_keys, bool with_met) {
   Section section{"steps." + design,
                   {{"steps", "u32", Per::Ray, "steps", "visits of the ray"},
                    {"tail_dropped", "u8", Per::Ray, "entries", "stack entries dropped after the last visit"},
@@ -93,6 +93,8 @@ Section steps_section(const std::string& design, bool with_keys) {
                    {"detail", "u16", Per::Step, "", "node: visiting order | uncertain << 8; leaf: new best hits"}}};
   if (with_keys)
     section.columns.push_back({"key", "u32", Per::Key, "", "begin and end cells of each lane the box test hit"});
+  if (with_met)
+    section.columns.push_back({"met", "u16", Per::Leaf, "", "primitives whose boxes the ray's box meets, bit by bit"});
   return section;
 }
 

@@ -27,22 +27,24 @@ Json to_json_value(const intersect::Hit& hit) {
 }
 
 Json to_json_value(const SceneInfo& scene) {
-  return {{"name", scene.name},
-          {"hash", scene.hash},
-          {"format", scene.report.format},
-          {"strand_thickness", scene.strand_thickness},
-          {"triangles", scene.triangles},
-          {"zero_area_triangles", scene.report.zero_area_triangles},
-          {"strands", scene.report.strands},
-          {"segments", scene.report.segments},
-          {"instances", scene.report.instances},
-          {"warnings", scene.report.warnings},
-          {"camera",
-           {{"eye", to_json_value(scene.camera.eye)},
-            {"target", to_json_value(scene.camera.target)},
-            {"up", to_json_value(scene.camera.up)},
-            {"vertical_fov_degrees", scene.camera.vertical_fov_degrees},
-            {"from_file", scene.camera.from_file}}}};
+  Json json = {{"name", scene.name},
+               {"hash", scene.hash},
+               {"format", scene.report.format},
+               {"strand_thickness", scene.strand_thickness},
+               {"triangles", scene.triangles},
+               {"zero_area_triangles", scene.report.zero_area_triangles},
+               {"strands", scene.report.strands},
+               {"segments", scene.report.segments},
+               {"instances", scene.report.instances},
+               {"warnings", scene.report.warnings},
+               {"camera",
+                {{"eye", to_json_value(scene.camera.eye)},
+                 {"target", to_json_value(scene.camera.target)},
+                 {"up", to_json_value(scene.camera.up)},
+                 {"vertical_fov_degrees", scene.camera.vertical_fov_degrees},
+                 {"from_file", scene.camera.from_file}}}};
+  if (scene.spheres != 0) json["spheres"] = scene.spheres;
+  return json;
 }
 
 Json to_json_value(const RayOptions& rays) {
@@ -96,21 +98,25 @@ Json to_json_value(const ImageInfo& info) {
     json["bare_node_stride_bytes"] = image.bare_node_stride_bytes;
   }
   if (image.layout.box_bits != accel::kFullBoxBits) json["box_bits"] = image.layout.box_bits;
+  if (image.layout.primitive_boxes) json["primitive_boxes"] = true;
+  if (image.sphere_count != 0) json["sphere_count"] = image.sphere_count;
   return json;
 }
 
 Json to_json_value(const DesignCounts& design) {
   const reference::Counts& counts = design.counts;
-  return {{"design", cull::to_string(design.design)},
-          {"stored", design.stored},
-          {"node_visits", counts.node_visits},
-          {"triangle_tests", counts.triangle_tests},
-          {"leaf_visits", counts.leaf_visits},
-          {"box_hits", counts.box_hits},
-          {"culled", counts.culled},
-          {"uncertain", counts.uncertain},
-          {"dropped", counts.dropped},
-          {"different_hits", design.different_hits}};
+  Json json = {{"design", cull::to_string(design.design)},
+               {"stored", design.stored},
+               {"node_visits", counts.node_visits},
+               {"triangle_tests", counts.triangle_tests},
+               {"leaf_visits", counts.leaf_visits},
+               {"box_hits", counts.box_hits},
+               {"culled", counts.culled},
+               {"uncertain", counts.uncertain},
+               {"dropped", counts.dropped},
+               {"different_hits", design.different_hits}};
+  if (counts.boxed_out != 0) json["boxed_out"] = counts.boxed_out;
+  return json;
 }
 
 Json to_json_value(const Section& section) {
@@ -267,6 +273,7 @@ void read(const Reader& from, SceneInfo& to) {
   from.get("format", to.report.format);
   from.get("strand_thickness", to.strand_thickness);
   from.get("triangles", to.triangles);
+  if (from.has("spheres")) from.get("spheres", to.spheres);
   from.get("zero_area_triangles", to.report.zero_area_triangles);
   from.get("strands", to.report.strands);
   from.get("segments", to.report.segments);
@@ -352,6 +359,8 @@ void read(const Reader& from, ImageInfo& to) {
     from.get("bare_node_stride_bytes", image.bare_node_stride_bytes);
   }
   if (from.has("box_bits")) from.get("box_bits", image.layout.box_bits);
+  if (from.has("primitive_boxes")) from.get("primitive_boxes", image.layout.primitive_boxes);
+  if (from.has("sphere_count")) from.get("sphere_count", image.sphere_count);
 }
 
 void read(const Reader& from, DesignCounts& to) {
@@ -365,6 +374,7 @@ void read(const Reader& from, DesignCounts& to) {
   from.get("uncertain", to.counts.uncertain);
   from.get("dropped", to.counts.dropped);
   from.get("different_hits", to.different_hits);
+  if (from.has("boxed_out")) from.get("boxed_out", to.counts.boxed_out);
 }
 
 void read(const Reader& from, intersect::Hit& to) {
@@ -391,7 +401,7 @@ void read(const Reader& from, Section& to) {
     item.get("description", column.description);
     std::string per;
     item.get("per", per);
-    for (const Per known : {Per::Ray, Per::Step, Per::Key, Per::Word})
+    for (const Per known : {Per::Ray, Per::Step, Per::Key, Per::Leaf, Per::Word})
       if (to_string(known) == per) column.per = known;
   });
 }

@@ -24,7 +24,7 @@ struct SceneInfo {
   std::string name;            ///< as given to scene::load
   std::string hash;            ///< scene::content_hash, 32 digits
   float strand_thickness = 0;  ///< scene::LoadOptions
-  std::uint64_t triangles = 0;
+  std::uint64_t triangles = 0, spheres = 0;
   scene::Camera camera;
   scene::LoadReport report;
 };

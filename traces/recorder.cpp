@@ -32,10 +32,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 /// for which they would be too large or take long to make.
 Design tables_of(Design event_class) { return event_class == Design::MaskLut ? Design::Projection : event_class; }
 
-/// A design at work: its tables and its walk.
+/// A design at work: its tables and its walk. `leaf_boxes` may be null.
 struct Culler {
-  Culler(Design d, bool store, const cull::MaskOptions& masks, const RecordedTree& tree)
-      : design(d), stored(store), tester(tables_of(d), masks), traversal(tree.bvh, &tree.masks.masks, tester) {}
+  Culler(Design d, bool store, const cull::MaskOptions& masks, const RecordedTree& tree,
+         const std::vector<accel::PrimitiveBox>* leaf_boxes)
+      : design(d),
+        stored(store),
+        tester(tables_of(d), masks),
+        traversal(tree.bvh, &tree.masks.masks, tester, leaf_boxes, cull::RayBoxRule::OncePerLeaf) {}
   Design design;
   bool stored;
   cull::MaskTester tester;
@@ -62,6 +66,7 @@ Manifest make_manifest(const scene::Scene& scene, const RecordOptions& options) 
   manifest.scene.hash = scene::content_hash(scene.mesh).hex();
   manifest.scene.strand_thickness = options.strand_thickness;
   manifest.scene.triangles = scene.mesh.triangles.size();
+  manifest.scene.spheres = scene.mesh.spheres.size();
   manifest.scene.camera = scene.camera;
   manifest.scene.report = scene.report;
   manifest.rays = options.rays;
@@ -81,9 +86,10 @@ struct Outcome {
 /// Traces blocks of paths on any thread.
 class BlockTracer {
  public:
+  /// `expected`: without any culling. `ray_boxes`: the cullers have them.
   BlockTracer(const RayGenerator& generator, const std::vector<std::unique_ptr<Culler>>& cullers,
-              const reference::Traversal& expected)
-      : generator_(generator), cullers_(cullers), expected_(expected) {}
+              const reference::Traversal& expected, bool ray_boxes)
+      : generator_(generator), cullers_(cullers), expected_(expected), ray_boxes_(ray_boxes) {}
 
   Outcome trace(std::uint64_t first, std::uint64_t last, BlockEncoder& encoder) const {
     std::vector<intersect::Ray> rays;
@@ -91,7 +97,7 @@ class BlockTracer {
     std::vector<StepList> steps(cullers_.size());
     StepList* without_culling = nullptr;  // filled on the way, as that walk gives the expected hits
     for (std::size_t i = 0; i < cullers_.size(); ++i)
-      if (cullers_[i]->design == Design::None) without_culling = &steps[i];
+      if (!culls(*cullers_[i])) without_culling = &steps[i];
     const auto closest = [&](const intersect::Ray& ray, bool recorded) {
       return expected_.trace(ray, recorded ? without_culling : nullptr);
     };
@@ -102,7 +108,7 @@ class BlockTracer {
     for (std::size_t i = 0; i < cullers_.size(); ++i) {
       const Culler& culler = *cullers_[i];
       DesignCounts counts{culler.design, culler.stored, {}, 0};
-      if (culler.design != Design::None) compare(culler, rays, hits, steps[i], counts, outcome.differences);
+      if (culls(culler)) compare(culler, rays, hits, steps[i], counts, outcome.differences);
       counts.counts = reference::count_steps(steps[i], 0, steps[i].rays());
       outcome.designs.push_back(counts);
       if (culler.stored)
@@ -115,6 +121,8 @@ class BlockTracer {
   }
 
  private:
+  bool culls(const Culler& culler) const { return culler.design != Design::None || ray_boxes_; }
+
   static void compare(const Culler& culler, const std::vector<intersect::Ray>& rays,
                       const std::vector<intersect::Hit>& expected, StepList& steps, DesignCounts& counts,
                       std::vector<Difference>& differences) {
@@ -129,6 +137,7 @@ class BlockTracer {
   const RayGenerator& generator_;
   const std::vector<std::unique_ptr<Culler>>& cullers_;
   const reference::Traversal& expected_;
+  bool ray_boxes_;
 };
 
 /// Takes outcomes from many threads and writes them in order; a thread that is early waits, which bounds the memory.
@@ -254,10 +263,13 @@ RecordSummary record(const scene::Scene& scene, const RecordOptions& options, co
 
   const cull::MaskTester no_culling(Design::None, options.masks);
   const reference::Traversal expected(tree.bvh, nullptr, no_culling);
+  std::vector<accel::PrimitiveBox> leaf_boxes;
+  if (layout.primitive_boxes) leaf_boxes = reference::leaf_boxes(tree.bvh);
   std::vector<std::unique_ptr<Culler>> cullers;
   for (const DesignCounts& entry : manifest.designs)
-    cullers.push_back(std::make_unique<Culler>(entry.design, entry.stored, options.masks, tree));
-  const BlockTracer tracer(generator, cullers, expected);
+    cullers.push_back(std::make_unique<Culler>(entry.design, entry.stored, options.masks, tree,
+                                               layout.primitive_boxes ? &leaf_boxes : nullptr));
+  const BlockTracer tracer(generator, cullers, expected, layout.primitive_boxes);
 
   OrderedSink sink(*writer, summary);
   const std::uint64_t paths_per_block = std::max(1u, options.rays_per_block / generator.max_rays_per_path());

@@ -21,9 +21,11 @@ struct RecordOptions {
   RayOptions rays;
   accel::BuildOptions build;
   cull::MaskOptions masks;
-  bool with_masks = true;     ///< false: nodes carry none, and the only design is None
-  bool strip_full = false;    ///< nodes whose masks are all full carry none
-  accel::ImageLayout layout;  ///< alignments and bits of a coordinate; mask_bits follow from `masks`
+  bool with_masks = true;   ///< false: nodes carry none, and the only design is None
+  bool strip_full = false;  ///< nodes whose masks are all full carry none
+  /// Alignments, bits of a coordinate, and primitive_boxes, with which ray boxes cull in the leaves of every design;
+  /// mask_bits follow from `masks`.
+  accel::ImageLayout layout;
   /// Whose steps are stored. Projection, Dedup and BitTable store MaskLut's, which are their own.
   std::vector<cull::Design> designs = {cull::Design::None, cull::Design::MaskLut, cull::Design::Comparators};
   std::vector<cull::Design> count_only;  ///< counted for the manifest, not stored

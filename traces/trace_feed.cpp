@@ -50,7 +50,16 @@ TraceFeed::TraceFeed(const TraceReader& reader, RayRange range, const accel::Bvh
   if (holds_steps(reader, tester.design(), tester.options()))
     steps_of_ = tester.design();
   else
+    walk_with(bvh, masks, tester);
+}
+
+void TraceFeed::walk_with(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester) {
+  if (!reader_.has_primitive_boxes()) {
     traversal_.emplace(bvh, masks, tester);
+    return;
+  }
+  leaf_boxes_ = reference::leaf_boxes(bvh);
+  traversal_.emplace(bvh, masks, tester, &leaf_boxes_, cull::RayBoxRule::OncePerLeaf);
 }
 
 std::shared_ptr<const reference::RayBlock> TraceFeed::next() {
@@ -76,9 +85,11 @@ reference::RayBlock part_of(const reference::RayBlock& block, std::uint64_t firs
   if (all.rays() == 0) return part;
   part.steps.first_step = rebased(all.first_step, first, last);
   part.steps.first_key = rebased(all.first_key, first, last);
+  part.steps.first_met = rebased(all.first_met, first, last);
   part.steps.tail_dropped = slice_of(all.tail_dropped, first, last);
   part.steps.steps = slice_of(all.steps, all.first_step[first], all.first_step[last]);
   part.steps.keys = slice_of(all.keys, all.first_key[first], all.first_key[last]);
+  part.steps.met = slice_of(all.met, all.first_met[first], all.first_met[last]);
   return part;
 }
 

@@ -28,6 +28,9 @@ class TraceFeed : public reference::RayFeed {
   /// Rays and expected hits only. The reader must outlive the feed.
   TraceFeed(const TraceReader& reader, RayRange range);
 
+  TraceFeed(const TraceFeed&) = delete;
+  TraceFeed& operator=(const TraceFeed&) = delete;
+
   /// With the steps of `tester`'s design. `masks` may be null for Design::None; all must outlive the feed.
   TraceFeed(const TraceReader& reader, RayRange range, const accel::Bvh4& bvh, const cull::ObjectMasks* masks,
             const cull::MaskTester& tester);
@@ -37,11 +40,14 @@ class TraceFeed : public reference::RayFeed {
   bool derives() const { return traversal_.has_value(); }  ///< steps are walked again, not read
 
  private:
+  void walk_with(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester);
+
   const TraceReader& reader_;
   RayRange range_;
   std::uint64_t next_ray_;
   const accel::Bvh4* bvh_ = nullptr;
-  std::optional<cull::Design> steps_of_;  ///< read from the trace
+  std::optional<cull::Design> steps_of_;         ///< read from the trace
+  std::vector<accel::PrimitiveBox> leaf_boxes_;  ///< what the traversal asks, with ray-box culling
   std::optional<reference::Traversal> traversal_;
 };
 

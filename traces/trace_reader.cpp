@@ -36,7 +36,8 @@ TraceReader::TraceReader(const std::string& path) : file_(path) {
   std::vector<Section> of_rays = {rays_section(), hits_section()};
   for (const DesignCounts& entry : manifest_.designs) {
     const bool keys = cull::event_class(entry.design) == cull::Design::MaskLut;
-    if (entry.stored) of_rays.push_back(steps_section(std::string(cull::to_string(entry.design)), keys));
+    if (entry.stored)
+      of_rays.push_back(steps_section(std::string(cull::to_string(entry.design)), keys, has_primitive_boxes()));
   }
   expect_columns(image_section());
   for (const Section& wanted : of_rays) expect_columns(wanted);
@@ -228,11 +229,12 @@ void TraceReader::read_rays(ColumnDecoder& decoder, std::uint64_t block, referen
 
 void TraceReader::read_hits(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const {
   const std::uint64_t count = out.expected.size();
+  const std::uint64_t primitives = manifest_.scene.triangles + manifest_.scene.spheres;
   const auto column = [&](const char* name) { return read_column<float>(decoder, "hits", name, block, count); };
   const std::vector<float> t = column("t"), u = column("u"), v = column("v");
   const auto primitive = read_column<std::uint32_t>(decoder, "hits", "primitive", block, count);
   for (std::uint64_t i = 0; i < count; ++i) {
-    if (primitive[i] != intersect::kNoPrimitive && primitive[i] >= manifest_.scene.triangles)
+    if (primitive[i] != intersect::kNoPrimitive && primitive[i] >= primitives)
       refuse("hits",
              fmt::format("ray {} hits primitive {}, which the scene does not have", out.first_ray + i, primitive[i]));
     out.expected[i] = {t[i], u[i], v[i], primitive[i]};
@@ -258,15 +260,26 @@ void TraceReader::read_steps(ColumnDecoder& decoder, std::uint64_t block, cull::
   for (std::uint64_t i = 0; i < total; ++i) list.steps[i] = {refs[i], dropped[i], lanes[i], detail[i]};
 
   const bool keyed = cull::event_class(design) == cull::Design::MaskLut;
-  list.first_key.assign(count + 1, 0);
-  if (!keyed) return;
-  std::uint64_t keys = 0;
-  for (std::uint64_t ray = 0; ray < count; ++ray) {
-    for (std::uint64_t i = list.first_step[ray]; i < list.first_step[ray + 1]; ++i)
-      if (!list.steps[i].is_leaf()) keys += static_cast<std::uint64_t>(std::popcount(list.steps[i].box_hits()));
-    list.first_key[ray + 1] = keys;
+  list.first_key = list.first_met = std::vector<std::uint64_t>(count + 1, 0);
+  // Where the elements of a ray begin, when each of its steps has `elements(step)` of them.
+  const auto starts = [&](auto&& elements) {
+    std::vector<std::uint64_t> first{0};
+    first.reserve(count + 1);
+    for (std::uint64_t ray = 0; ray < count; ++ray) {
+      first.push_back(first.back());
+      for (std::uint64_t i = list.first_step[ray]; i < list.first_step[ray + 1]; ++i)
+        first.back() += static_cast<std::uint64_t>(elements(list.steps[i]));
+    }
+    return first;
+  };
+  if (keyed) {
+    list.first_key = starts([](const auto& step) { return step.is_leaf() ? 0 : std::popcount(step.box_hits()); });
+    list.keys = read_column<std::uint32_t>(decoder, section, "key", block, list.first_key.back());
   }
-  list.keys = read_column<std::uint32_t>(decoder, section, "key", block, keys);
+  if (has_primitive_boxes()) {
+    list.first_met = starts([](const auto& step) { return step.is_leaf(); });
+    list.met = read_column<std::uint16_t>(decoder, section, "met", block, list.first_met.back());
+  }
 }
 
 reference::RayBlock TraceReader::read_block(std::uint64_t block, std::optional<cull::Design> steps_of) const {

@@ -30,6 +30,7 @@ class TraceReader {
   std::uint64_t first_ray(std::uint64_t block) const { return first_ray_[block]; }
   std::uint64_t block_of(std::uint64_t ray) const;  ///< ray < rays()
   bool has_steps(cull::Design design) const;        ///< of its event class
+  bool has_primitive_boxes() const { return manifest_.image.shape.layout.primitive_boxes; }
 
   /// What the object masks are compressed with; null when they are not.
   const std::shared_ptr<const cull::CompressionLut>& compression() const { return compression_; }

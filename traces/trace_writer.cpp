@@ -58,7 +58,7 @@ void encode_hits(ColumnSink sink, const std::vector<intersect::Hit>& hits) {
   sink.add<std::uint32_t>(hits, [](const Hit& hit) { return hit.primitive; });
 }
 
-void encode_steps(ColumnSink sink, const reference::StepList& list, bool with_keys) {
+void encode_steps(ColumnSink sink, const reference::StepList& list, bool with_keys, bool with_met) {
   using reference::Step;
   std::vector<std::uint32_t> counts(list.rays());
   for (std::size_t ray = 0; ray < counts.size(); ++ray)
@@ -70,6 +70,7 @@ void encode_steps(ColumnSink sink, const reference::StepList& list, bool with_ke
   sink.add<std::uint8_t>(list.steps, [](const Step& step) { return step.lanes; });
   sink.add<std::uint16_t>(list.steps, [](const Step& step) { return step.detail; });
   if (with_keys) sink.add(list.keys);
+  if (with_met) sink.add(list.met);
 }
 
 std::vector<cull::Design> stored_designs(const Manifest& manifest) {
@@ -92,7 +93,7 @@ EncodedBlock BlockEncoder::encode(const std::vector<intersect::Ray>& rays, const
   for (std::size_t i = 0; i < designs_.size(); ++i) {
     if (steps[i].rays() != rays.size()) throw Error("trace", "a block has not as many event sequences as rays", "");
     encode_steps({encoder_, block.columns, static_cast<std::uint16_t>(kFirstStepsSection + i)}, steps[i],
-                 has_keys(designs_[i]));
+                 has_keys(designs_[i]), with_met_);
   }
   return block;
 }
@@ -101,7 +102,8 @@ TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel
                          const cull::CompressionLut* compression)
     : manifest_(std::move(manifest)),
       stored_designs_(stored_designs(manifest_)),
-      encoder_(stored_designs_),
+      with_met_(image.layout.primitive_boxes),
+      encoder_(stored_designs_, with_met_),
       file_(path) {
   manifest_.tool = std::string("ctusim ") + tool_version();
   manifest_.ray_count = 0;
@@ -110,7 +112,7 @@ TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel
   manifest_.image.shape.bytes = {};
   manifest_.sections = {image_section(), rays_section(), hits_section()};
   for (const cull::Design design : stored_designs_)
-    manifest_.sections.push_back(steps_section(std::string(cull::to_string(design)), has_keys(design)));
+    manifest_.sections.push_back(steps_section(std::string(cull::to_string(design)), has_keys(design), with_met_));
   if (manifest_.masks.entries != 0) manifest_.sections.push_back(compression_section());
 
   const FileHeader header = make_header();

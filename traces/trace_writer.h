@@ -22,13 +22,14 @@ struct EncodedBlock {
 
 class BlockEncoder {
  public:
-  /// `designs`: whose steps are stored, in the order in which `encode` gets them.
-  explicit BlockEncoder(std::vector<cull::Design> designs) : designs_(std::move(designs)) {}
+  /// `designs`: whose steps are stored, in the order in which `encode` gets them; `with_met`: with what ray boxes meet.
+  BlockEncoder(std::vector<cull::Design> designs, bool with_met) : designs_(std::move(designs)), with_met_(with_met) {}
   EncodedBlock encode(const std::vector<intersect::Ray>& rays, const std::vector<intersect::Hit>& hits,
                       const std::vector<reference::StepList>& steps);
 
  private:
   std::vector<cull::Design> designs_;
+  bool with_met_;
   ColumnEncoder encoder_;
 };
 
@@ -40,7 +41,7 @@ class TraceWriter {
   TraceWriter(const std::string& path, Manifest manifest, const accel::Image& image,
               const cull::CompressionLut* compression = nullptr);
 
-  BlockEncoder make_encoder() const { return BlockEncoder(stored_designs_); }
+  BlockEncoder make_encoder() const { return BlockEncoder(stored_designs_, with_met_); }
   void add(const EncodedBlock& block);
   void add(const reference::RayBlock& block, const std::vector<reference::StepList>& steps);
 
@@ -54,6 +55,7 @@ class TraceWriter {
 
   Manifest manifest_;
   std::vector<cull::Design> stored_designs_;
+  bool with_met_;
   BlockEncoder encoder_;
   OutputFile file_;
   std::vector<IndexEntry> index_;

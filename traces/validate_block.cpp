@@ -48,6 +48,7 @@ class Follower {
       if (list.tail_dropped[index] != 0) refuse("entries are dropped from an empty stack");
       return;
     }
+    met_ = list.met.empty() ? nullptr : list.met.data() + list.first_met[index];
     stack_[0] = 0;
     depth_ = 1;
     bool found = false;
@@ -109,10 +110,12 @@ class Follower {
     depth_ += count;
   }
 
-  bool leaf(const Step& step) const {
+  bool leaf(const Step& step) {
     const int count = accel::leaf_count(step.ref);
-    if (step.triangles_tested() != count) refuse("not all triangles of a leaf are tested");
-    if ((step.became_best() >> count) != 0) refuse("a triangle is hit that the leaf does not have");
+    const unsigned all = (1u << count) - 1, tested = met_ == nullptr ? all : *met_++;
+    if ((tested & ~all) != 0) refuse("a box is met of a primitive that the leaf does not have");
+    if (step.triangles_tested() != std::popcount(tested)) refuse("not all triangles of a leaf are tested");
+    if ((step.became_best() & ~tested) != 0) refuse("a triangle is hit that is not tested");
     return step.became_best() != 0;
   }
 
@@ -120,6 +123,7 @@ class Follower {
   const cull::MaskOptions& masks_;
   const std::string& path_;
   std::uint64_t ray_ = 0;
+  const std::uint16_t* met_ = nullptr;  ///< of the ray's next leaf; null without ray-box culling
   std::vector<accel::ChildRef> stack_ = std::vector<accel::ChildRef>(64);
   std::size_t depth_ = 0;  ///< entries on it
 };

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::uint32_t kChildOffset = 96;
 constexpr std::uint32_t kPrimitiveOffset = 36;
+constexpr std::uint32_t kPrimitiveBoxOffset = 40;
 constexpr std::uint32_t kMaxAlignmentBytes = 4096;
 constexpr std::uint32_t kMaxMaskBits = 1u << 15;  // R = 32
 
@@ -48,7 +49,8 @@ Image frame(const ImageLayout& layout, std::uint32_t nodes, std::uint32_t triang
   image.layout = layout;
   image.node_stride_bytes = static_cast<std::uint32_t>(
       round_up(node_body_bytes(layout) + 4 * mask_bytes(layout), layout.node_alignment_bytes));
-  image.triangle_stride_bytes = static_cast<std::uint32_t>(round_up(kTriangleBytes, layout.triangle_alignment_bytes));
+  image.triangle_stride_bytes =
+      static_cast<std::uint32_t>(round_up(primitive_bytes(layout), layout.triangle_alignment_bytes));
   if (layout.bare_nodes != 0)
     image.bare_node_stride_bytes =
         static_cast<std::uint32_t>(round_up(node_body_bytes(layout), layout.node_alignment_bytes));
@@ -82,9 +84,20 @@ void write_triangle(const LeafTriangle& triangle, std::uint8_t* p) {
   store_u32(p + kPrimitiveOffset, triangle.primitive);
 }
 
+void write_primitive_box(const PrimitiveBox& box, std::uint8_t* p) {
+  store_vec3(p + kPrimitiveBoxOffset, box.lower);
+  store_vec3(p + kPrimitiveBoxOffset + 12, box.upper);
+}
+
 const std::uint8_t* node_bytes(const Image& image, std::uint32_t node) {
   if (node >= image.node_count) fail(fmt::format("image, node {}", node), fmt::format("of {}", image.node_count));
   return image.bytes.data() + image.node_address(node);
+}
+
+const std::uint8_t* primitive_at(const Image& image, std::uint32_t index) {
+  if (index >= image.triangle_count)
+    fail(fmt::format("image, triangle {}", index), fmt::format("of {}", image.triangle_count));
+  return image.bytes.data() + image.triangle_address(index);
 }
 
 /// Collects what validate() needs to know of the whole tree while it walks from the root.
@@ -108,7 +121,10 @@ class Validator {
       fail("image, depth", "not the length of the longest path");
     const auto missing = std::find(in_leaf_.begin(), in_leaf_.end(), false);
     if (missing != in_leaf_.end()) fail(fmt::format("image, triangle {}", missing - in_leaf_.begin()), "in no leaf");
-    for (std::uint32_t t = 0; t < image_.triangle_count; ++t) check_triangle(t);
+    std::uint32_t spheres = 0;
+    for (std::uint32_t t = 0; t < image_.triangle_count; ++t) spheres += check_primitive(t);
+    if (spheres != image_.sphere_count)
+      fail("image, sphere_count", fmt::format("{} where there are {}", image_.sphere_count, spheres));
   }
 
   static void check_sizes(const Image& image) {
@@ -201,13 +217,19 @@ class Validator {
     }
   }
 
-  void check_triangle(std::uint32_t t) const {
-    const LeafTriangle triangle = read_triangle(image_, t);
-    for (const Vec3& v : {triangle.v0, triangle.v1, triangle.v2}) {
-      if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-        fail(fmt::format("image, triangle {}", t), "a vertex that is not finite");
+  /// Whether it is a sphere.
+  bool check_primitive(std::uint32_t t) const {
+    const LeafTriangle primitive = read_triangle(image_, t);
+    const auto refuse = [&](const char* what) { fail(fmt::format("image, triangle {}", t), what); };
+    for (const Vec3& v : {primitive.v0, primitive.v1, primitive.v2}) {
+      if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) refuse("a vertex that is not finite");
     }
-    if (triangle.primitive == intersect::kNoPrimitive) fail(fmt::format("image, triangle {}", t), "no primitive id");
+    if (primitive.primitive == intersect::kNoPrimitive) refuse("no primitive id");
+    const bool finite_box = is_box(box_of_primitive(primitive).lower, box_of_primitive(primitive).upper);
+    if (primitive.is_sphere() && (!(primitive.v1.x >= 0) || !finite_box)) refuse("a sphere without a size");
+    if (image_.layout.primitive_boxes && read_primitive_box(image_, t) != box_of_primitive(primitive))
+      refuse("a box that is not the primitive's");
+    return primitive.is_sphere();
   }
 
   const Image& image_;
@@ -238,14 +260,12 @@ Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask
   if (layout.mask_bits != 0 && (masks == nullptr || words_per_mask < static_cast<int>((layout.mask_bits + 63) / 64)))
     throw Error("image layout", fmt::format("{} mask bits but {} words", layout.mask_bits, words_per_mask),
                 "give masks of ceil(mask_bits / 64) words, or no mask_bits");
-  if (bvh.spheres != 0)
-    throw Error("image", fmt::format("{} spheres", bvh.spheres),
-                "the unit has no sphere test: trace the scene with the reference, or convert spheres to triangles");
   if (layout.bare_nodes != 0 && layout.bare_nodes >= bvh.nodes.size())
     throw Error("image layout", fmt::format("{} bare nodes of {}", layout.bare_nodes, bvh.nodes.size()),
                 "leave the root its masks");
   Image image =
       frame(layout, static_cast<std::uint32_t>(bvh.nodes.size()), static_cast<std::uint32_t>(bvh.triangles.size()));
+  image.sphere_count = bvh.spheres;
   image.depth = bvh.depth;
   image.lower = bvh.lower;
   image.upper = bvh.upper;
@@ -257,8 +277,11 @@ Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask
       write_mask(masks + (4 * std::size_t{n} + lane) * static_cast<std::size_t>(words_per_mask), layout.mask_bits,
                  node + node_body_bytes(layout) + lane * mask_bytes(layout));
   }
-  for (std::uint32_t t = 0; t < image.triangle_count; ++t)
-    write_triangle(bvh.triangles[t], image.bytes.data() + image.triangle_address(t));
+  for (std::uint32_t t = 0; t < image.triangle_count; ++t) {
+    std::uint8_t* const at = image.bytes.data() + image.triangle_address(t);
+    write_triangle(bvh.triangles[t], at);
+    if (layout.primitive_boxes) write_primitive_box(box_of_primitive(bvh.triangles[t]), at);
+  }
   return image;
 }
 
@@ -277,10 +300,14 @@ Node4 read_node(const Image& image, std::uint32_t index) {
 }
 
 LeafTriangle read_triangle(const Image& image, std::uint32_t index) {
-  if (index >= image.triangle_count)
-    fail(fmt::format("image, triangle {}", index), fmt::format("of {}", image.triangle_count));
-  const std::uint8_t* const p = image.bytes.data() + image.triangle_address(index);
+  const std::uint8_t* const p = primitive_at(image, index);
   return {load_vec3(p), load_vec3(p + 12), load_vec3(p + 24), load_u32(p + kPrimitiveOffset)};
+}
+
+PrimitiveBox read_primitive_box(const Image& image, std::uint32_t index) {
+  if (!image.layout.primitive_boxes) fail("image", "primitives without boxes");
+  const std::uint8_t* const p = primitive_at(image, index) + kPrimitiveBoxOffset;
+  return {load_vec3(p), load_vec3(p + 12)};
 }
 
 void read_mask(const Image& image, std::uint32_t node, int lane, std::uint64_t* words) {
@@ -298,6 +325,7 @@ Bvh4 decode(const Image& image) {
   for (std::uint32_t n = 0; n < image.node_count; ++n) bvh.nodes.push_back(read_node(image, n));
   bvh.triangles.reserve(image.triangle_count);
   for (std::uint32_t t = 0; t < image.triangle_count; ++t) bvh.triangles.push_back(read_triangle(image, t));
+  bvh.spheres = image.sphere_count;
   bvh.lower = image.lower;
   bvh.upper = image.upper;
   bvh.depth = image.depth;

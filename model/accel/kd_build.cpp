@@ -179,11 +179,6 @@ int default_kd_depth(std::size_t primitives) {
   return static_cast<int>(std::floor(8 + 1.3 * levels + 0.499));
 }
 
-PrimitiveBox box_of_primitive(const LeafTriangle& primitive) {
-  const Box3 box = box_of_triangles(&primitive, 1);
-  return {to_vec3(box.lower), to_vec3(box.upper)};
-}
-
 KdTree build_kd_tree(const scene::Mesh& mesh, const KdOptions& options) {
   check(options);
   if (mesh.primitives() == 0) throw Error("mesh", "no triangle in it", "give a scene with at least one primitive");

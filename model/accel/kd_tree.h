@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/accel/bvh4.h"
+#include "model/accel/primitive_box.h"
 
 namespace ctu::accel {
 
@@ -33,16 +33,6 @@ class KdNode {
   std::uint32_t word_, tag_;
 };
 static_assert(sizeof(KdNode) == 8);
-
-/// A box around a primitive, or around what of it lies in a leaf: 24 bytes.
-struct PrimitiveBox {
-  Vec3 lower, upper;
-  bool operator==(const PrimitiveBox&) const = default;
-};
-static_assert(sizeof(PrimitiveBox) == 24);
-
-/// Exact for a triangle, rounded outward for a sphere.
-PrimitiveBox box_of_primitive(const LeafTriangle& primitive);
 
 /// Node 0 is the root; node n's lower child is n + 1. Cells are closed: what touches a plane is found on one side of it
 /// at least, and a ray that touches the plane visits both.

@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-#include "model/accel/kd_tree.h"
+#include "model/accel/primitive_box.h"
 #include "model/intersect/ray.h"
 #include "model/numeric/round.h"
 

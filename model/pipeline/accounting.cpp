@@ -38,7 +38,9 @@ constexpr Term kPlaceTerms[kPlaces] = {
     {"stack_refill", "waiting for spilled entries from memory"},
     {"leaf_fetch_hit", "fetching a leaf all of whose lines are in the cache"},
     {"leaf_fetch_miss", "fetching a leaf with at least one line from memory"},
+    {"primitive_cull", "holding the ray's box against those of the leaf's primitives"},
     {"triangle_test", "in the triangle test, from the leaf's first triangle to its last outcome"},
+    {"sphere_test", "in the sphere test, from the leaf's last outcome on"},
     {"hit_update", "the outcome of the leaf is being written"},
     {"result", "finished, waiting to be returned"},
 };

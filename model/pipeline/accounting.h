@@ -83,11 +83,13 @@ enum class Place : std::uint8_t {
   StackRefill,
   LeafFetchHit,
   LeafFetchMiss,
+  PrimitiveCull,
   TriangleTest,
+  SphereTest,
   HitUpdate,
   Result,
 };
-inline constexpr int kPlaces = 17;
+inline constexpr int kPlaces = 19;
 
 std::string_view name_of(Place place);
 std::string_view description_of(Place place);

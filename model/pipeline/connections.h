@@ -44,8 +44,21 @@ void for_each_link(Stages<Source, Wiring>& stages, bool has_spills, Join&& join)
     join("box_to_sort", box_test.tested, child_sort.survivors);
   }
   join("sort_to_stack", child_sort.sorted, stack.sorted);
-  join("leaf_to_triangle", leaf_fetch.done, triangle_test.leaf);
-  join("triangle_to_hit", triangle_test.tested, hit_update.tested);
+  if (stages.primitive_cull) {
+    auto& primitive_cull = Wiring::stage(*stages.primitive_cull);
+    join("leaf_to_cull", leaf_fetch.done, primitive_cull.leaf);
+    join("cull_to_triangle", primitive_cull.passed, triangle_test.leaf);
+    join("cull_to_hit", primitive_cull.missed, hit_update.missed);
+  } else {
+    join("leaf_to_triangle", leaf_fetch.done, triangle_test.leaf);
+  }
+  if (stages.sphere_test) {
+    auto& sphere_test = Wiring::stage(*stages.sphere_test);
+    join("triangle_to_sphere", triangle_test.tested, sphere_test.tested);
+    join("sphere_to_hit", sphere_test.outcome, hit_update.tested);
+  } else {
+    join("triangle_to_hit", triangle_test.tested, hit_update.tested);
+  }
   join("hit_to_stack", hit_update.done, stack.leaf_done);
   join("stack_to_scheduler", stack.to_scheduler, scheduler.from_stack);
   join("stack_to_result", stack.to_result, result_queue.from_stack);

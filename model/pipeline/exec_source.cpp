@@ -1,9 +1,12 @@
 #include "model/pipeline/exec_source.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "model/cull/bit_rows.h"
+#include "model/cull/leaf_culling.h"
 #include "model/intersect/slab_test.h"
+#include "model/intersect/sphere_test.h"
 #include "model/intersect/triangle_test.h"
 
 namespace ctu::pipeline {
@@ -31,10 +34,15 @@ bool ExecSource::begin(Slot slot) {
   r.best.t = r.ray.ray.tmax;
   r.dropped = 0;
   r.recorded = r.recorded_end = nullptr;
+  r.recorded_met = r.recorded_met_end = nullptr;
   if (context.index < list.rays()) {
     r.recorded = list.steps.data() + list.first_step[context.index];
     r.recorded_end = list.steps.data() + list.first_step[context.index + 1];
     r.recorded_tail = list.tail_dropped[context.index];
+    if (image_.primitive_boxes()) {
+      r.recorded_met = list.met.data() + list.first_met[context.index];
+      r.recorded_met_end = list.met.data() + list.first_met[context.index + 1];
+    }
   }
   return r.ray.valid;
 }
@@ -145,7 +153,23 @@ std::uint8_t ExecSource::child_order(Slot slot, unsigned survivors) {
 }
 
 void ExecSource::pushed(Slot slot, int position, int lane) {
-  registers_[slot].stack_t0[position] = registers_[slot].times.t0[lane];
+  Registers& r = registers_[slot];
+  r.stack_t0[position] = r.times.t0[lane];
+  if (image_.primitive_boxes()) r.stack_t1[position] = r.times.t1[lane];
+}
+
+void ExecSource::goes_to_child(Slot slot, int lane) {
+  if (!image_.primitive_boxes()) return;
+  Registers& r = registers_[slot];
+  r.t0 = r.times.t0[lane];
+  r.t1 = r.times.t1[lane];
+}
+
+void ExecSource::goes_to_entry(Slot slot, int position) {
+  if (!image_.primitive_boxes()) return;
+  Registers& r = registers_[slot];
+  r.t0 = r.stack_t0[position];
+  r.t1 = r.stack_t1[position];
 }
 
 bool ExecSource::drops(Slot slot, int position) {
@@ -155,18 +179,40 @@ bool ExecSource::drops(Slot slot, int position) {
   return true;
 }
 
+std::uint16_t ExecSource::primitive_cull(Slot slot, accel::ChildRef leaf) {
+  Registers& r = registers_[slot];
+  const auto box_of = [&](std::uint32_t i) { return image_.primitive_box(accel::leaf_first(leaf) + i); };
+  const auto count = static_cast<std::uint32_t>(accel::leaf_count(leaf));
+  const auto met =
+      static_cast<std::uint16_t>(cull::boxes_met(r.ray.ray, r.t0, std::min(r.t1, r.best.t), count, box_of));
+  if (r.recorded_met != nullptr) {
+    if (r.recorded_met == r.recorded_met_end || *r.recorded_met != met) ++event_mismatches_;
+    if (r.recorded_met != r.recorded_met_end) ++r.recorded_met;
+  }
+  return met;
+}
+
 ExecSource::Test ExecSource::triangle_test(Slot slot, accel::ChildRef leaf, int index, bool last) {
   // The tests of a leaf are under way together, so all see the best hit from before the leaf. The outcome is the same
   // as with the best hit of the moment: what lies beyond it does not replace it.
   const Registers& r = registers_[slot];
   const accel::LeafTriangle& triangle = image_.triangle(accel::leaf_first(leaf) + static_cast<unsigned>(index));
+  if (triangle.is_sphere()) return {slot, static_cast<std::uint8_t>(index), last, false, {0, 0, 0, triangle.primitive}};
   const auto result = intersect::triangle_test(r.ray, triangle.v0, triangle.v1, triangle.v2, r.best.t);
   return {slot, static_cast<std::uint8_t>(index), last, result.hit, {result.t, result.u, result.v, triangle.primitive}};
 }
 
+ExecSource::Test ExecSource::sphere_test(const Test& test) {
+  if (!test.is_sphere()) return test;
+  const Registers& r = registers_[test.slot];
+  const accel::LeafTriangle& primitive = image_.triangle(accel::leaf_first(r.step.ref) + test.index);
+  const intersect::SphereResult result = intersect::sphere_test(r.ray, primitive.sphere(), r.best.t);
+  return {test.slot, test.index, test.last, result.hit, {result.t, 0, 0, primitive.id()}};
+}
+
 void ExecSource::update(const Test& test) {
   Registers& r = registers_[test.slot];
-  r.step.lanes = static_cast<std::uint8_t>(test.index + 1);
+  ++r.step.lanes;  // primitives tested
   if (!test.hit || !intersect::replaces(test.candidate.t, test.candidate.primitive, r.best)) return;
   r.best = test.candidate;
   r.step.detail = static_cast<std::uint16_t>(r.step.detail | (1u << test.index));

@@ -28,11 +28,13 @@ class ExecSource {
     intersect::Hit best;
     reference::Step step;  ///< the visit's event so far
     const reference::Step *recorded = nullptr, *recorded_end = nullptr;
+    const std::uint16_t *recorded_met = nullptr, *recorded_met_end = nullptr;
     std::uint8_t recorded_tail = 0;
     std::uint8_t dropped = 0;  ///< since the last visit
     std::uint32_t key[intersect::kLanes] = {};
     std::uint64_t touched[intersect::kLanes][kMaxWords] = {};  ///< of comparators
-    float stack_t0[kMaxStackEntries] = {};
+    float stack_t0[kMaxStackEntries] = {}, stack_t1[kMaxStackEntries] = {};
+    float t0 = 0, t1 = 0;  ///< of the ray's stay in the box that it goes to next, or is in
   };
 
   ExecSource(const UnitConfig& config, const UnitImage& image, const cull::MaskTester& tester, Contexts& contexts);
@@ -47,7 +49,11 @@ class ExecSource {
   void pushed(Slot slot, int position, int lane);
   void begin_pop(Slot) {}
   bool drops(Slot slot, int position);
+  void goes_to_child(Slot slot, int lane);
+  void goes_to_entry(Slot slot, int position);
+  std::uint16_t primitive_cull(Slot slot, accel::ChildRef leaf);
   Test triangle_test(Slot slot, accel::ChildRef leaf, int index, bool last);
+  Test sphere_test(const Test& test);
   void update(const Test& test);
   bool has_hit(Slot slot) const { return registers_[slot].best.primitive != intersect::kNoPrimitive; }
   reference::Step finish_visit(Slot slot);

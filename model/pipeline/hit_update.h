@@ -1,7 +1,8 @@
 // hit_update: writes the best hit of a context, nearer first, equal t to the lower primitive. After the last triangle
 // of a leaf the ray goes on to the stack, or is finished if any hit is enough and it has one.
 //
-//   in   tested  outcomes of triangle tests
+//   in   tested  outcomes of triangle_test, or sphere_test
+//   in   missed  from primitive_cull, contexts whose leaf had nothing to test; they go first
 //   out  done    contexts whose leaf is finished
 //   latency hit_update.latency from the leaf's last outcome, one outcome a cycle
 //   stalls: output_full
@@ -22,10 +23,12 @@ class HitUpdate {
  public:
   static constexpr const char* kName = "hit_update";
   typename Wiring::template In<typename Source::Test> tested;
+  typename Wiring::template In<SlotToken> missed;
   typename Wiring::template Out<LeafDone> done;
 
-  HitUpdate(const UnitConfig& config, Contexts& contexts, Source& source, EventLog& log)
-      : contexts_(contexts), source_(source), log_(log), pipe_(config.hit_update.latency) {}
+  /// `has_missed`: there is a primitive_cull.
+  HitUpdate(const UnitConfig& config, Contexts& contexts, Source& source, EventLog& log, bool has_missed)
+      : contexts_(contexts), source_(source), log_(log), has_missed_(has_missed), pipe_(config.hit_update.latency) {}
 
   bool step(Cycle now) {
     bool moved = false;
@@ -38,7 +41,12 @@ class HitUpdate {
       done.push(now, pipe_.leave(now));
       moved = true;
     }
-    if (tested.can_pop(now)) {
+    if (has_missed_ && missed.can_pop(now)) {
+      const Slot slot = missed.front().slot;
+      missed.pop(now);
+      finish_leaf(now, slot);
+      moved = true;
+    } else if (tested.can_pop(now)) {
       const typename Source::Test test = tested.front();
       tested.pop(now);
       source_.update(test);
@@ -64,6 +72,7 @@ class HitUpdate {
   Contexts& contexts_;
   Source& source_;
   EventLog& log_;
+  bool has_missed_;
   Pipe<LeafDone> pipe_;
 };
 

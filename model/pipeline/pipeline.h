@@ -3,7 +3,7 @@
 //   ray_queue -> scheduler -> node_fetch -> box_test
 //                  |  ^         -> [cell_locate -> [table_fetch ->] mask_test ->] child_sort -> traversal_stack
 //                  |  +--------------------------------------------------------------------------+  ^  +-> result_queue
-//                  +-> leaf_fetch -> triangle_test -> hit_update -----------------------------------+
+//                  +-> leaf_fetch -> [primitive_cull ->] triangle_test -> [sphere_test ->] hit_update +
 //   memory_port <-> node_fetch, leaf_fetch [, traversal_stack] [, table_fetch]
 //
 // What stands in [ ] is left out when the configuration or the image does not need it (contract 5).
@@ -20,9 +20,11 @@
 #include "model/pipeline/mask_test.h"
 #include "model/pipeline/memory_port.h"
 #include "model/pipeline/node_fetch.h"
+#include "model/pipeline/primitive_cull.h"
 #include "model/pipeline/ray_queue.h"
 #include "model/pipeline/result_queue.h"
 #include "model/pipeline/scheduler.h"
+#include "model/pipeline/sphere_test.h"
 #include "model/pipeline/table_fetch.h"
 #include "model/pipeline/traversal_stack.h"
 #include "model/pipeline/triangle_test.h"
@@ -72,11 +74,13 @@ struct Stages {
         traversal_stack(s.config, s.contexts, s.source, s.log, s.image),
         leaf_fetch(s.config, s.image, s.contexts),
         triangle_test(s.config, s.contexts, s.source),
-        hit_update(s.config, s.contexts, s.source, s.log),
+        hit_update(s.config, s.contexts, s.source, s.log, s.image.primitive_boxes()),
         result_queue(s.config, s.contexts, s.source, s.log, s.bytes),
         memory_port(s.config, s.has_table_fetch ? Client::TableFetch
                               : s.has_spills    ? Client::Stack
                                                 : Client::LeafFetch) {
+    if (s.image.primitive_boxes()) primitive_cull.emplace(s.config, s.contexts, s.source);
+    if (s.image.spheres() != 0) sphere_test.emplace(s.config, s.contexts, s.source);
     if (!s.has_mask_test) return;
     cell_locate.emplace(s.config, s.contexts, s.source);
     if (s.has_table_fetch) table_fetch.emplace(s.config, s.tables, s.image, s.contexts, s.source);
@@ -93,7 +97,9 @@ struct Stages {
   Holder<ChildSort<Source, Wiring>> child_sort;
   Holder<TraversalStack<Source, Wiring>> traversal_stack;
   Holder<LeafFetch<Wiring>> leaf_fetch;
+  std::optional<Holder<PrimitiveCull<Source, Wiring>>> primitive_cull;
   Holder<TriangleTest<Source, Wiring>> triangle_test;
+  std::optional<Holder<SphereTest<Source, Wiring>>> sphere_test;
   Holder<HitUpdate<Source, Wiring>> hit_update;
   Holder<ResultQueue<Source, Wiring>> result_queue;
   Holder<MemoryPort<Wiring>> memory_port;
@@ -101,7 +107,8 @@ struct Stages {
   /// Every stage in its holder, those that may be left out in an optional.
   auto all() {
     return std::tie(ray_queue, scheduler, node_fetch, box_test, cell_locate, table_fetch, mask_test, child_sort,
-                    traversal_stack, leaf_fetch, triangle_test, hit_update, result_queue, memory_port);
+                    traversal_stack, leaf_fetch, primitive_cull, triangle_test, sphere_test, hit_update, result_queue,
+                    memory_port);
   }
 };
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "model/intersect/triangle_test.h"
 #include "model/pipeline/outcome.h"
 #include "model/pipeline/unit_config.h"
 #include "model/pipeline/unit_image.h"
+#include "model/reference/primitive_test.h"
 
 namespace ctu::pipeline {
 
@@ -22,6 +22,7 @@ class ReplaySource {
       : image_(image),
         contexts_(contexts),
         keyed_(cull::reads_tables(config.mask_test.design)),
+        boxed_(image.primitive_boxes()),
         registers_(static_cast<std::size_t>(contexts.count())) {}
 
   /// Sets up a context for its ray; whether the ray visits anything.
@@ -36,6 +37,7 @@ class ReplaySource {
       r.key = list.keys.data() + list.first_key[context.index];
       r.key_end = list.keys.data() + list.first_key[context.index + 1];
     }
+    if (boxed_) r.met = list.met.data() + list.first_met[context.index];
     r.drops_left = 0;
     r.best = intersect::kNoPrimitive;
     __builtin_prefetch(r.step);  // a place of its own for every ray, first looked at when it is issued
@@ -100,9 +102,17 @@ class ReplaySource {
     return true;
   }
 
-  Test triangle_test(Slot slot, accel::ChildRef, int index, bool last) {
-    return {slot, static_cast<std::uint8_t>(index), last};
+  // Where a ray goes next, and what it knows of the way there, plays no part here.
+  void goes_to_child(Slot, int) {}
+  void goes_to_entry(Slot, int) {}
+
+  /// Primitives of the leaf that are to be tested, bit by bit.
+  std::uint16_t primitive_cull(Slot slot, accel::ChildRef) { return *registers_[slot].met++; }
+  Test triangle_test(Slot slot, accel::ChildRef leaf, int index, bool last) {
+    return {slot, static_cast<std::uint8_t>(index), last,
+            image_.is_sphere(accel::leaf_first(leaf) + static_cast<unsigned>(index))};
   }
+  Test sphere_test(const Test& test) { return test; }
   /// The outcome of a test reaches the best hit.
   void update(const Test& test) {
     Registers& r = registers_[test.slot];
@@ -129,10 +139,8 @@ class ReplaySource {
     intersect::Hit hit;
     hit.t = ray.tmax;
     if (r.best == intersect::kNoPrimitive) return hit;
-    const accel::LeafTriangle triangle = accel::read_triangle(bytes, r.best_triangle);
-    const auto result =
-        intersect::triangle_test(intersect::prepare_ray(ray), triangle.v0, triangle.v1, triangle.v2, ray.tmax);
-    return {result.t, result.u, result.v, triangle.primitive};
+    reference::test_primitive<true>(intersect::prepare_ray(ray), accel::read_triangle(bytes, r.best_triangle), hit);
+    return hit;
   }
   std::uint64_t event_mismatches() const { return 0; }
 
@@ -148,13 +156,14 @@ class ReplaySource {
   struct Registers {
     const reference::Step *step = nullptr, *end = nullptr;
     const std::uint32_t *key = nullptr, *key_end = nullptr;
+    const std::uint16_t* met = nullptr;  ///< of the next leaf
     std::uint32_t best = intersect::kNoPrimitive, best_triangle = 0;
     std::uint8_t tail_dropped = 0, drops_left = 0;
   };
 
   const UnitImage& image_;
   Contexts& contexts_;
-  bool keyed_;
+  bool keyed_, boxed_;
   std::vector<Registers> registers_;
 };
 

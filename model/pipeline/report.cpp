@@ -78,6 +78,8 @@ std::vector<Cause> ray_cycles(const Contexts& contexts) {
   std::vector<Cause> causes;
   for (int i = 0; i < kPlaces; ++i) {
     const auto place = static_cast<Place>(i);
+    const bool optional = place == Place::PrimitiveCull || place == Place::SphereTest;
+    if (optional && contexts.cycles_at(place) == 0) continue;
     causes.push_back({std::string(name_of(place)), std::string(description_of(place)), contexts.cycles_at(place)});
   }
   return causes;
@@ -94,6 +96,9 @@ std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& ima
   if (!image.decodes_boxes())
     lines.push_back(
         fmt::format("box_decode: the image's boxes are binary32; {} cycles of box_test", config.box_decode.latency));
+  if (!image.primitive_boxes())
+    lines.push_back("primitive_cull, and where a stack entry's ray leaves its box: the image has no primitive boxes");
+  if (image.spheres() == 0) lines.push_back("sphere_test: the image has no spheres; one stage, one link");
   if (image.stack_bound() <= config.stack.entries)
     lines.push_back(
         fmt::format("spills of traversal_stack and their memory client: no ray of this tree can hold more than "
@@ -102,7 +107,7 @@ std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& ima
   const int spare_entries = config.stack.entries - most.stack_entries;
   if (spare_entries > 0)
     lines.push_back(fmt::format("could be left out: {} of {} stack entries, never used; {} bits", spare_entries,
-                                config.stack.entries, spare_entries * kStackEntryBytes * 8 * config.unit.contexts));
+                                config.stack.entries, spare_entries * stack_entry_bits(image) * config.unit.contexts));
   if (most.tables != nullptr) add_unused_rows(*most.tables, lines);
   if (config.leaf_cache.bytes == 0) lines.push_back("tags and data of leaf_cache: configured away");
   if (config.node_cache.bytes == 0) lines.push_back("tags and data of node_cache: configured away");

@@ -61,7 +61,7 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
   result.counts = {.rays = result.rays,
                    .node_visits = box_test.nodes(),
                    .triangle_tests = triangle_test.triangles(),
-                   .leaf_visits = triangle_test.leaves(),
+                   .leaf_visits = leaf_fetch.counters().visits,
                    .box_hits = box_test.box_hits(),
                    .dropped = pushed.dropped};
   for_each_stage(stages, [&](auto& stage) { result.stages.push_back(stage.account.close()); });
@@ -96,6 +96,15 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
                  memory_port.requests_of(Client::TableFetch));
     most.table_mshrs = table_fetch.mshrs().most_in_use();
   }
+  if (stages.primitive_cull) {
+    const auto& culled = Wiring::stage(*stages.primitive_cull).counters();
+    result.counts.boxed_out = culled.culled;
+    counters.add("primitive_cull.boxes", "boxes", "boxes of primitives held against a ray's", culled.boxes);
+    counters.add("primitive_cull.culled", "primitives", "primitives whose box was not met, not tested", culled.culled);
+    counters.add("primitive_cull.emptied", "leaves", "leaves without a primitive left to test", culled.emptied);
+  }
+  if (stages.sphere_test)
+    counters.add("sphere_test.spheres", "spheres", "spheres tested", Wiring::stage(*stages.sphere_test).spheres());
   if (stages.mask_test) {
     auto& mask_test = Wiring::stage(*stages.mask_test);
     auto& cell_locate = Wiring::stage(*stages.cell_locate);

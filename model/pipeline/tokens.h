@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "model/accel/bvh4.h"
 #include "model/accel/child_ref.h"
 #include "model/intersect/ray.h"
 
@@ -34,28 +35,33 @@ struct NodeToken {
   bool operator==(const NodeToken&) const = default;
 };
 
-/// A leaf whose triangles have arrived.
+/// A leaf whose primitives have arrived.
 struct LeafToken {
   accel::ChildRef ref = 0;
   Slot slot = 0;
+  std::uint16_t met = 0xFFFF;  ///< bit i: primitive i is to be tested; bits beyond the leaf's mean nothing
   bool operator==(const LeafToken&) const = default;
 };
 
-/// The outcome of one triangle test when outcomes are recorded ones: nothing but its place.
+/// The outcome of one test of a primitive when outcomes are recorded ones: nothing but its place.
 struct RecordedTest {
   Slot slot = 0;
-  std::uint8_t index = 0;  ///< of the triangle within its leaf
-  bool last = false;
+  std::uint8_t index = 0;  ///< of the primitive within its leaf
+  bool last = false;       ///< of the leaf's
+  bool sphere = false;
+  bool is_sphere() const { return sphere; }
   bool operator==(const RecordedTest&) const = default;
 };
 
-/// The outcome of one triangle test when the unit computes.
+/// The outcome of one test of a primitive when the unit computes. Of a sphere that has not been tested yet, no hit, and
+/// its primitive as the leaf has it.
 struct ComputedTest {
   Slot slot = 0;
   std::uint8_t index = 0;
   bool last = false;
   bool hit = false;
   intersect::Hit candidate;
+  bool is_sphere() const { return (candidate.primitive & accel::LeafTriangle::kSphereBit) != 0; }
   bool operator==(const ComputedTest& other) const {
     return slot == other.slot && index == other.index && last == other.last && hit == other.hit &&
            intersect::same_bits(candidate, other.candidate);

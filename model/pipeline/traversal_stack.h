@@ -116,6 +116,7 @@ class TraversalStack {
     if (context.depth > counters_.deepest) counters_.deepest = context.depth;
     if (to_push_ > 0) return Activity::Busy;
     if (!to_scheduler.can_push(now)) return pushed > 0 ? Activity::Busy : Activity::OutputFull;
+    source_.goes_to_child(slot_, order_ & 3);
     to_scheduler.push(now, {image_.child(node_, order_ & 3), slot_});
     job_ = Job::None;
     return Activity::Busy;
@@ -143,6 +144,7 @@ class TraversalStack {
       ++counters_.dropped;
     } else {
       if (!to_scheduler.can_push(now)) return Activity::OutputFull;
+      source_.goes_to_entry(slot_, top);
       to_scheduler.push(now, {entry(slot_, top), slot_});
       job_ = Job::None;
     }
@@ -220,7 +222,7 @@ class TraversalStack {
 
   /// Of the batch that begins with entry `position`. It crosses no line, as all sizes are powers of two.
   std::uint64_t spill_address(int position) const {
-    return map_.spill_base + slot_ * map_.spill_region + static_cast<std::uint64_t>(position) * kStackEntryBytes;
+    return map_.spill_base + slot_ * map_.spill_region + static_cast<std::uint64_t>(position) * map_.entry_bytes;
   }
 
   Contexts& contexts_;

@@ -1,13 +1,17 @@
-// triangle_test: all triangles of a leaf, one after the other, into one watertight triangle tester
-// (model/intersect/triangle_test.h).
+// triangle_test: the triangles of a leaf, one after the other, into one watertight triangle tester
+// (model/intersect/triangle_test.h). Spheres go through it untested, primitives that primitive_cull has thrown away not
+// at all.
 //
 //   in   leaf    a context and the leaf whose bytes have come
-//   out  tested  one outcome for each triangle
+//   out  tested  one outcome for each primitive
 //   latency triangle_test.latency, a triangle each triangle_test.interval cycles; the next leaf follows without a gap
 //   stalls: output_full, interval (a triangle waits for the interval)
 //
 // Stated for both twins in docs/unit.md. Twin in gates: rtl/triangle_test.sv.
 #pragma once
+
+#include <bit>
+#include <cstdint>
 
 #include "model/pipeline/context.h"
 #include "model/pipeline/link.h"
@@ -40,10 +44,10 @@ class TriangleTest {
       tested.push(now, pipe_.leave(now));
       moved = true;
     }
-    const bool waits = remaining_ > 0 || leaf.can_pop(now);
+    const bool waits = rest_ != 0 || leaf.can_pop(now);
     const bool enters = waits && pipe_.can_enter(now);
     if (enters) {
-      if (remaining_ == 0) take_leaf(now);
+      if (rest_ == 0) take_leaf(now);
       test_next(now);
       moved = true;
     }
@@ -61,13 +65,13 @@ class TriangleTest {
     current_ = leaf.front();
     leaf.pop(now);
     contexts_.move(current_.slot, now, Place::TriangleTest);
-    index_ = 0;
-    remaining_ = accel::leaf_count(current_.ref);
+    rest_ = current_.met & ((1u << accel::leaf_count(current_.ref)) - 1);
     ++leaves_;
   }
   void test_next(Cycle now) {
-    --remaining_;
-    pipe_.enter(now, source_.triangle_test(current_.slot, current_.ref, index_++, remaining_ == 0), interval_);
+    const int index = std::countr_zero(rest_);
+    rest_ &= rest_ - 1;
+    pipe_.enter(now, source_.triangle_test(current_.slot, current_.ref, index, rest_ == 0), interval_);
     ++triangles_;
   }
 
@@ -76,7 +80,7 @@ class TriangleTest {
   Cycle interval_;
   Pipe<typename Source::Test> pipe_;
   LeafToken current_;
-  int index_ = 0, remaining_ = 0;
+  unsigned rest_ = 0;  ///< bit i: primitive i of the leaf is still to be tested
   std::uint64_t leaves_ = 0, triangles_ = 0;
 };
 

@@ -242,11 +242,25 @@ void add_node_path(Parameters& list) {
 
 void add_leaf_path(Parameters& list) {
   list.push_back(integer(
+      "primitive_cull.units", "boxes", {1, 4}, [](auto& c) -> auto& { return c.primitive_cull.units; },
+      "Images with primitive boxes: boxes held against the ray's in a cycle."));
+  list.back().new_since_hashes = true;
+  list.push_back(integer(
+      "primitive_cull.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.primitive_cull.latency; },
+      "Images with primitive boxes: end of the stay 1, multiply 4, add 4, compare 1."));
+  list.back().new_since_hashes = true;
+  list.push_back(integer(
       "triangle_test.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.triangle_test.latency; },
       "Translate 4, shear 8, edge functions 8, determinant 8, divide 16, range 1."));
   list.push_back(integer(
       "triangle_test.interval", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.triangle_test.interval; },
       "Cycles between triangles."));
+  list.push_back(integer(
+      "sphere_test.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.sphere_test.latency; },
+      "Images with spheres: from the centre 4, dot product 12, divide 16, nearest point 8, its dot product 12, under "
+      "the "
+      "root 4, divide 16, root 12, ends of the chord 4, range 1."));
+  list.back().new_since_hashes = true;
   list.push_back(integer(
       "hit_update.latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.hit_update.latency; },
       "Compare 1, write 1."));

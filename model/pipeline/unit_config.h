@@ -90,9 +90,16 @@ struct UnitConfig {
     int spill_batch = 8;
   } stack;
   struct {
+    int units = 1;
+    int latency = 10;
+  } primitive_cull;  ///< only where the image has primitive boxes
+  struct {
     int latency = 45;
     int interval = 1;
   } triangle_test;
+  struct {
+    int latency = 89;
+  } sphere_test;  ///< only where the image has spheres
   struct {
     int latency = 2;
   } hit_update;

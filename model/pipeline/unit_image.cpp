@@ -20,6 +20,8 @@ UnitImage::UnitImage(const accel::Image& image, const cull::MaskTester& tester, 
       lut_(tester.compression_lut()),
       mask_words_(static_cast<std::size_t>(cull::words_per_mask(tester.options().resolution))),
       children_(image.node_count),
+      spheres_(image.sphere_count),
+      has_primitive_boxes_(image.layout.primitive_boxes),
       primitives_(image.triangle_count),
       full_lanes_(image.node_count) {
   if (arithmetic) {
@@ -35,6 +37,7 @@ UnitImage::UnitImage(const accel::Image& image, const cull::MaskTester& tester, 
     const accel::LeafTriangle triangle = accel::read_triangle(image, t);
     primitives_[t] = triangle.primitive;
     if (arithmetic) triangles_[t] = triangle;
+    if (arithmetic && has_primitive_boxes_) primitive_boxes_.push_back(accel::read_primitive_box(image, t));
   }
   if (tester.design() == cull::Design::None) return;
   std::fill(full_lanes_.begin() + masked_nodes_, full_lanes_.end(), std::uint8_t{15});  // bare nodes

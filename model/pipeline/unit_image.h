@@ -45,7 +45,15 @@ class UnitImage {
     __builtin_prefetch(&full_lanes_[ref]);
   }
   accel::ChildRef child(std::uint32_t node, int lane) const { return children_[node][static_cast<unsigned>(lane)]; }
-  std::uint32_t primitive(std::uint32_t triangle) const { return primitives_[triangle]; }
+  std::uint32_t primitive(std::uint32_t triangle) const {
+    return primitives_[triangle] & ~accel::LeafTriangle::kSphereBit;
+  }
+  bool is_sphere(std::uint32_t triangle) const {
+    return spheres_ != 0 && (primitives_[triangle] & accel::LeafTriangle::kSphereBit) != 0;
+  }
+  std::uint32_t spheres() const { return spheres_; }
+  /// Whether every primitive has its box beside it.
+  bool primitive_boxes() const { return has_primitive_boxes_; }
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(children_.size()); }
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(primitives_.size()); }
   /// Entries a ray's stack can hold at most when the nearest child never goes there: 3 for each level.
@@ -67,6 +75,7 @@ class UnitImage {
   // Arithmetic only:
   const intersect::Box4& boxes(std::uint32_t node) const { return boxes_[node]; }
   const accel::LeafTriangle& triangle(std::uint32_t index) const { return triangles_[index]; }
+  const accel::PrimitiveBox& primitive_box(std::uint32_t index) const { return primitive_boxes_[index]; }
   /// Object mask of a lane: R^3 bits.
   const std::uint64_t* mask(std::uint32_t node, int lane) const {
     if (compressed()) return lut_->entry(static_cast<int>(mask_index(node, lane)));
@@ -84,11 +93,14 @@ class UnitImage {
   const cull::CompressionLut* lut_;
   std::size_t mask_words_;
   std::vector<std::array<accel::ChildRef, 4>> children_;
+  std::uint32_t spheres_;
+  bool has_primitive_boxes_;
   std::vector<std::uint32_t> primitives_;
   std::vector<std::uint8_t> full_lanes_;
   std::vector<std::uint16_t> mask_index_;
   std::vector<intersect::Box4> boxes_;
   std::vector<accel::LeafTriangle> triangles_;
+  std::vector<accel::PrimitiveBox> primitive_boxes_;
   std::vector<std::uint64_t> masks_;
 };
 

@@ -4,6 +4,7 @@
 
 #include "model/base/error.h"
 #include "model/pipeline/exec_source.h"
+#include "model/pipeline/memory_map.h"
 
 namespace ctu::pipeline {
 
@@ -25,6 +26,11 @@ void check_fits(const UnitConfig& config, const Work& work) {
                     (lut != nullptr ? "an index into the compression LUT has " : "an object mask has ") +
                     std::to_string(bits_needed),
                 "build image and tables for the same masks");
+  const int entry_bytes = stack_entry_bytes(work.image.layout.primitive_boxes);
+  if (config.stack.spill_batch * entry_bytes > config.memory.line_bytes)
+    throw Error("stack.spill_batch, memory.line_bytes",
+                "a batch of " + std::to_string(entry_bytes) + "-byte entries is larger than a line",
+                "choose a smaller batch, or a trace without primitive boxes");
   if (3 * work.image.depth + 1 > kMaxStackEntries)
     throw Error("image", "a tree of depth " + std::to_string(work.image.depth) + " needs more stack than a ray has",
                 "allow more triangles in a leaf");

@@ -8,6 +8,7 @@ Counts& Counts::operator+=(const Counts& other) {
   rays += other.rays;
   node_visits += other.node_visits;
   triangle_tests += other.triangle_tests;
+  boxed_out += other.boxed_out;
   leaf_visits += other.leaf_visits;
   box_hits += other.box_hits;
   culled += other.culled;
@@ -27,6 +28,7 @@ Counts count_steps(const StepList& list, std::uint64_t first_ray, std::uint64_t 
       if (step.is_leaf()) {
         ++counts.leaf_visits;
         counts.triangle_tests += static_cast<std::uint64_t>(step.triangles_tested());
+        counts.boxed_out += static_cast<std::uint64_t>(accel::leaf_count(step.ref) - step.triangles_tested());
       } else {
         ++counts.node_visits;
         counts.box_hits += static_cast<std::uint64_t>(std::popcount(step.box_hits()));

@@ -14,8 +14,8 @@ namespace ctu::reference {
 ///   node: lanes = box hits (bits 0..3) | survivors of the mask test (bits 4..7); detail = visiting order of the
 ///   survivors,
 ///         nearest first, 2 bits each from bit 0, then uncertain lanes in bits 8..11
-///   leaf: lanes = triangles tested (all of the leaf's; an any-hit ray that found one leaves after the leaf);
-///         detail = bit i: triangle i became the best hit
+///   leaf: lanes = primitives tested (all of the leaf's, or those that ray-box culling left; an any-hit ray that found
+///         one leaves after the leaf); detail = bit i: primitive i became the best hit
 struct Step {
   accel::ChildRef ref = 0;
   std::uint8_t dropped = 0;  ///< stack entries popped and dropped before this visit: their t0 lay beyond the best hit
@@ -36,12 +36,16 @@ static_assert(sizeof(Step) == 8);
 /// The steps of many rays, one after the other. Steps of ray i: [first_step[i], first_step[i+1]).
 /// Keys (packed cull::CellKey, one for each box-hit lane in ascending lane order, node after node; present only for
 /// designs that read tables) of ray i: [first_key[i], first_key[i+1]).
+/// Primitives whose boxes the ray's box meets (bit i: primitive i; one for each leaf visited; present only with ray-box
+/// culling) of ray i: [first_met[i], first_met[i+1]).
 struct StepList {
   std::vector<std::uint64_t> first_step{0};
   std::vector<std::uint64_t> first_key{0};
+  std::vector<std::uint64_t> first_met{0};
   std::vector<std::uint8_t> tail_dropped;  ///< entries dropped after a ray's last visit, until its stack was empty
   std::vector<Step> steps;
   std::vector<std::uint32_t> keys;
+  std::vector<std::uint16_t> met;
 
   std::uint64_t rays() const { return tail_dropped.size(); }
   void clear() { *this = StepList{}; }
@@ -50,8 +54,9 @@ struct StepList {
 /// Work of some rays in the paper's unit: a 4-wide box test or a triangle test counts one.
 struct Counts {
   std::uint64_t rays = 0;
-  std::uint64_t node_visits = 0;  ///< 4-wide box tests
-  std::uint64_t triangle_tests = 0;
+  std::uint64_t node_visits = 0;     ///< 4-wide box tests
+  std::uint64_t triangle_tests = 0;  ///< of primitives: those of spheres are among them
+  std::uint64_t boxed_out = 0;       ///< primitives of visited leaves that ray-box culling left untested
   std::uint64_t leaf_visits = 0;
   std::uint64_t box_hits = 0;   ///< lanes hit by the slab test
   std::uint64_t culled = 0;     ///< ... and thrown away by the mask test

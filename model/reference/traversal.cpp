@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <type_traits>
 
 #include <fmt/format.h>
 
 #include "model/base/error.h"
-#include "model/cull/leaf_culling.h"
 #include "model/reference/primitive_test.h"
 #include "model/reference/visit_order.h"
 
@@ -29,11 +29,15 @@ struct StackEntryWithExit : StackEntry {
 // Step::dropped counts in 8 bits, so no ray may ever hold more entries than that.
 constexpr int kMaxStackEntries = std::numeric_limits<std::uint8_t>::max();
 
+/// What ray boxes do in the leaves of a walk.
+enum class RayBoxes { None, CutAtHits, OncePerLeaf };
+
 /// One ray on its way through the tree. `kRecord` decides once whether the event sequence is written, `kSpheres`
-/// whether a leaf may hold spheres, `kRayBox` whether ray boxes cull its primitives.
-template <bool kRecord, bool kSpheres, bool kRayBox>
+/// whether a leaf may hold spheres, `kRayBoxes` how ray boxes cull its primitives.
+template <bool kRecord, bool kSpheres, RayBoxes kRayBoxes>
 class Walk {
  public:
+  static constexpr bool kRayBox = kRayBoxes != RayBoxes::None;
   using Entry = std::conditional_t<kRayBox, StackEntryWithExit, StackEntry>;
 
   Walk(const NodeTest& test_node, const accel::PrimitiveBox* leaf_boxes, const intersect::Ray& ray, StepList* steps,
@@ -121,16 +125,29 @@ class Walk {
       return best;
     };
     std::uint64_t tested = count;
-    if constexpr (kRayBox) {
+    // An any-hit ray leaves after the leaf, as without culling.
+    const auto box_of = [&](std::uint32_t i) -> const accel::PrimitiveBox& { return leaf_boxes_[first + i]; };
+    if constexpr (kRayBoxes == RayBoxes::CutAtHits) {
       const std::uint64_t before = box_counts_.primitive_tests;
-      const auto box_of = [&](std::uint32_t i) -> const accel::PrimitiveBox& { return leaf_boxes_[first + i]; };
-      // An any-hit ray leaves after the leaf, as without culling.
       cull::visit_leaf<cull::RayBox>(ray_.ray, at.t0, at.t1, count, best_.t, false, box_of, test, box_counts_);
       tested = box_counts_.primitive_tests - before;
+    } else if constexpr (kRayBoxes == RayBoxes::OncePerLeaf) {
+      const unsigned met = cull::boxes_met(ray_.ray, at.t0, std::min(at.t1, best_.t), count, box_of);
+      for (unsigned rest = met; rest != 0; rest &= rest - 1) test(static_cast<std::uint32_t>(std::countr_zero(rest)));
+      tested = static_cast<std::uint64_t>(std::popcount(met));
+      if constexpr (kRecord) steps_->met.push_back(static_cast<std::uint16_t>(met));
+      count_leaf(count, tested);
     } else {
       for (std::uint32_t i = 0; i < count; ++i) test(i);
     }
     if constexpr (kRecord) record(at.ref, static_cast<unsigned>(tested), became_best);
+  }
+
+  void count_leaf(std::uint32_t count, std::uint64_t tested) {
+    box_counts_.primitive_tests += tested;
+    if (count < cull::kLeastCulledPrimitives) return;
+    ++box_counts_.created;
+    box_counts_.box_tests += count;
   }
 
   const NodeTest& test_node_;
@@ -152,18 +169,25 @@ struct Outcome {
   cull::RayBoxCounts box_counts;
 };
 
-template <bool kRecord>
-Outcome walk(const NodeTest& test_node, const std::vector<accel::PrimitiveBox>* leaf_boxes, const intersect::Ray& ray,
+/// Rays are walked with the boxes of `leaf_boxes`, or none.
+template <bool kRecord, RayBoxes kRayBoxes>
+Outcome walk(const NodeTest& test_node, const accel::PrimitiveBox* leaf_boxes, const intersect::Ray& ray,
              StepList* steps, const intersect::Hit* known) {
-  const auto run = [&](auto spheres, auto ray_box) {
-    Walk<kRecord, spheres(), ray_box()> walk(test_node, ray_box() ? leaf_boxes->data() : nullptr, ray, steps, known);
+  const auto run = [&](auto spheres) {
+    Walk<kRecord, spheres(), kRayBoxes> walk(test_node, leaf_boxes, ray, steps, known);
     const intersect::Hit hit = walk.run();
     return Outcome{hit, walk.dropped(), walk.box_counts()};
   };
-  const bool spheres = test_node.bvh().spheres != 0;
-  if (leaf_boxes == nullptr)
-    return spheres ? run(std::true_type(), std::false_type()) : run(std::false_type(), std::false_type());
-  return spheres ? run(std::true_type(), std::true_type()) : run(std::false_type(), std::true_type());
+  return test_node.bvh().spheres != 0 ? run(std::true_type()) : run(std::false_type());
+}
+
+template <bool kRecord>
+Outcome walk(const NodeTest& test_node, const std::vector<accel::PrimitiveBox>* leaf_boxes, cull::RayBoxRule rule,
+             const intersect::Ray& ray, StepList* steps, const intersect::Hit* known) {
+  if (leaf_boxes == nullptr) return walk<kRecord, RayBoxes::None>(test_node, nullptr, ray, steps, known);
+  if (rule == cull::RayBoxRule::CutAtHits)
+    return walk<kRecord, RayBoxes::CutAtHits>(test_node, leaf_boxes->data(), ray, steps, known);
+  return walk<kRecord, RayBoxes::OncePerLeaf>(test_node, leaf_boxes->data(), ray, steps, known);
 }
 
 }  // namespace
@@ -178,8 +202,8 @@ std::vector<accel::PrimitiveBox> leaf_boxes(const accel::Bvh4& bvh) {
 int stack_bound(const accel::Bvh4& bvh) { return (kLanes - 1) * bvh.depth + 1; }
 
 Traversal::Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester,
-                     const std::vector<accel::PrimitiveBox>* leaf_boxes)
-    : test_node_(bvh, masks, tester), leaf_boxes_(leaf_boxes) {
+                     const std::vector<accel::PrimitiveBox>* leaf_boxes, cull::RayBoxRule rule)
+    : test_node_(bvh, masks, tester), leaf_boxes_(leaf_boxes), rule_(rule) {
   if (stack_bound(bvh) > kMaxStackEntries)
     throw Error("BVH",
                 fmt::format("depth {} needs a traversal stack of {} entries; the limit is {}", bvh.depth,
@@ -189,13 +213,14 @@ Traversal::Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, con
 
 intersect::Hit Traversal::trace(const intersect::Ray& ray, StepList* steps, const intersect::Hit* known,
                                 cull::RayBoxCounts* box_counts) const {
-  const Outcome outcome = steps == nullptr ? walk<false>(test_node_, leaf_boxes_, ray, nullptr, known)
-                                           : walk<true>(test_node_, leaf_boxes_, ray, steps, known);
+  const Outcome outcome = steps == nullptr ? walk<false>(test_node_, leaf_boxes_, rule_, ray, nullptr, known)
+                                           : walk<true>(test_node_, leaf_boxes_, rule_, ray, steps, known);
   if (box_counts != nullptr) *box_counts += outcome.box_counts;
   if (steps == nullptr) return outcome.hit;
   steps->tail_dropped.push_back(outcome.dropped);
   steps->first_step.push_back(steps->steps.size());
   steps->first_key.push_back(steps->keys.size());
+  steps->first_met.push_back(steps->met.size());
   return outcome.hit;
 }
 

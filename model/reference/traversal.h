@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "model/accel/bvh4.h"
-#include "model/accel/kd_tree.h"
+#include "model/accel/primitive_box.h"
+#include "model/cull/leaf_culling.h"
 #include "model/cull/mask_test.h"
-#include "model/cull/ray_box.h"
 #include "model/intersect/ray.h"
 #include "model/reference/node_test.h"
 #include "model/reference/step.h"
@@ -17,9 +17,11 @@ namespace ctu::reference {
 class Traversal {
  public:
   /// `masks` may be null when the tester's design is none. With `leaf_boxes`, those of leaf_boxes(bvh), ray boxes cull
-  /// primitives in the leaves; a step then counts the primitives that were tested. All must outlive this.
+  /// primitives in the leaves by `rule`; a step then counts the primitives that were tested, and by
+  /// RayBoxRule::OncePerLeaf StepList::met says which. All must outlive this.
   Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester,
-            const std::vector<accel::PrimitiveBox>* leaf_boxes = nullptr);
+            const std::vector<accel::PrimitiveBox>* leaf_boxes = nullptr,
+            cull::RayBoxRule rule = cull::RayBoxRule::CutAtHits);
 
   /// The ray's hit. When `steps` is given, its event sequence is appended there as one more ray. `known`: a hit, or a
   /// miss, that is kept unless a better one is found. What ray boxes did, if they cull, is added to `box_counts`.
@@ -29,6 +31,7 @@ class Traversal {
  private:
   NodeTest test_node_;
   const std::vector<accel::PrimitiveBox>* leaf_boxes_;
+  cull::RayBoxRule rule_;
 };
 
 /// The boxes of the primitives in leaf order, for ray-box culling.

@@ -26,7 +26,7 @@ inline std::ostream& operator<<(std::ostream& out, const RefToken& t) {
   return out << "slot " << t.slot << " ref " << t.ref;
 }
 inline std::ostream& operator<<(std::ostream& out, const LeafToken& t) {
-  return out << "slot " << t.slot << " ref " << t.ref;
+  return out << "slot " << t.slot << " ref " << t.ref << " met " << t.met;
 }
 inline std::ostream& operator<<(std::ostream& out, const NodeToken& t) {
   return out << "slot " << t.slot << " hits " << int{t.hits} << " survivors " << int{t.survivors} << " order "

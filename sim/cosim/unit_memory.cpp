@@ -23,7 +23,8 @@ std::variant<IdealMemory, BankedMemory> make_memory(const pipeline::MemoryConfig
 
 UnitMemory::UnitMemory(const pipeline::UnitConfig& config, const accel::Image& image, std::uint64_t behind)
     : line_bytes_(static_cast<std::size_t>(config.memory.line_bytes)),
-      write_bytes_(static_cast<std::size_t>(config.stack.spill_batch) * pipeline::kStackEntryBytes),
+      write_bytes_(static_cast<std::size_t>(config.stack.spill_batch *
+                                            pipeline::stack_entry_bytes(image.layout.primitive_boxes))),
       bytes_(image.bytes),
       address_of_(kIds * pipeline::kClients),
       memory_(make_memory(config.memory)) {

@@ -21,6 +21,7 @@ bool same_part(const std::vector<T>& a, const std::vector<std::uint64_t>& first_
 
 bool same_steps(const StepList& a, const StepList& b, std::size_t ray, Keys keys) {
   return a.tail_dropped[ray] == b.tail_dropped[ray] && same_part(a.steps, a.first_step, b.steps, b.first_step, ray) &&
+         same_part(a.met, a.first_met, b.met, b.first_met, ray) &&
          (keys == Keys::Ignored || same_part(a.keys, a.first_key, b.keys, b.first_key, ray));
 }
 

@@ -102,7 +102,7 @@ bool same_hits(const std::vector<intersect::Hit>& a, const std::vector<intersect
 
 bool same_steps(const reference::StepList& a, const reference::StepList& b) {
   return a.first_step == b.first_step && a.first_key == b.first_key && a.tail_dropped == b.tail_dropped &&
-         same_memory(a.steps, b.steps) && a.keys == b.keys;
+         same_memory(a.steps, b.steps) && a.keys == b.keys && a.first_met == b.first_met && a.met == b.met;
 }
 
 bool same(const Content& a, const Content& b) {
