@@ -4,7 +4,8 @@
 //
 // Parameters fix its structure, straps (inputs that keep their value while it runs) the rest. What a design or a scene
 // does not need is not there: DESIGN none has neither cell_locate nor mask_test, HAS_SPILLS 0 no way from the stack to
-// memory, TABLE_CACHE 0 no table_fetch; with TABLE_CACHE 1 all tables lie in memory and none is on chip.
+// memory, TABLE_CACHE 0 no table_fetch; with TABLE_CACHE 1 all tables lie in memory and none is on chip. PRIMITIVE_BOXES 0
+// has no primitive_cull and SPHERES 0 no sphere_test, nor what only these read.
 //
 // The register files of the contexts lie between the stages: rays, best hits, times of the slab test, and keys or touched
 // cells. Nodes, leaves and stacks by context are in node_fetch, leaf_fetch and traversal_stack.
@@ -31,6 +32,9 @@ module ctu_unit #(
     parameter bit TABLE_CACHE = 1'b0,       // of designs that have tables only
     parameter int TABLE_PORTS = 1,
     parameter int BOX_BITS = 32,            // of a coordinate of the image's boxes: 32, or 16, 12, 8
+    parameter bit PRIMITIVE_BOXES = 1'b0,   // the image has them
+    parameter bit SPHERES = 1'b0,           // the image has some
+    parameter int CULL_UNITS = 1,           // boxes of primitives compared at once
     parameter int STACK_ENTRIES = 16,       // of a context on chip, a power of two
     parameter bit HAS_SPILLS = 1'b1,
     parameter int MAX_SETS = 128,           // of each cache
@@ -46,7 +50,9 @@ module ctu_unit #(
     parameter int MASK_LATENCY = 2,
     parameter int MASK_SECOND_LATENCY = 1,  // dedup
     parameter int SORT_LATENCY = 3,
+    parameter int CULL_LATENCY = 10,        // PRIMITIVE_BOXES
     parameter int TRIANGLE_LATENCY = 45,
+    parameter int SPHERE_LATENCY = 89,      // SPHERES
     parameter int HIT_LATENCY = 2,
     parameter int LOAD_BITS = `CTU_LOAD_BITS(DESIGN, R, ENTRIES),  // of a table's row at the load port
     localparam int SET_BITS = MAX_SETS == 1 ? 1 : $clog2(MAX_SETS),
@@ -194,8 +200,6 @@ module ctu_unit #(
   `CTU_LINK(scheduler_to_leaf, `CTU_SCHEDULER_TO_LEAF, REF)
   `CTU_LINK(node_to_box, `CTU_NODE_TO_BOX, REF)
   `CTU_LINK(sort_to_stack, `CTU_SORT_TO_STACK, NODE)
-  `CTU_LINK(leaf_to_triangle, `CTU_LEAF_TO_TRIANGLE, REF)
-  `CTU_LINK(triangle_to_hit, `CTU_TRIANGLE_TO_HIT, TESTED)
   `CTU_LINK(hit_to_stack, `CTU_HIT_TO_STACK, SLOT_BITS + 1)
   `CTU_LINK(stack_to_scheduler, `CTU_STACK_TO_SCHEDULER, REF)
   `CTU_LINK(stack_to_result, `CTU_STACK_TO_RESULT, SLOT_BITS)
@@ -204,8 +208,13 @@ module ctu_unit #(
   `CTU_LINK(leaf_to_memory, `CTU_LEAF_TO_MEMORY, REQUEST)
   `CTU_LINK(memory_to_leaf, `CTU_MEMORY_TO_LEAF, RESPONSE)
   // Rays by context. What the host gives is written as ray_queue takes a ray, what it computes as the ray leaves it. Read
-  // by box_test, cell_locate, triangle_test and hit_update.
+  // by box_test, cell_locate, triangle_test and hit_update; and where they are there by primitive_cull and sphere_test,
+  // the two leaf readers, first one lowest, which also want the whole direction.
   logic [SLOT_BITS-1:0] boxes_slot, box_slot, locate_slot, triangle_ray_slot, hit_slot;
+  localparam int LEAF_READERS = 32'(PRIMITIVE_BOXES) + 32'(SPHERES);
+  localparam int LEAF_FILES = LEAF_READERS == 0 ? 1 : LEAF_READERS;  // no vector is empty
+  localparam int SPHERE_READER = 32'(PRIMITIVE_BOXES);
+  logic [LEAF_FILES*SLOT_BITS-1:0] leaf_reader_slot;
 
   localparam int ORIGIN = 0;
   localparam int TMIN = 96;
@@ -221,19 +230,20 @@ module ctu_unit #(
   logic [2:0] ray_zero_axes, ray_negative_axes;
   logic [31:0] ray_direction_z;
   logic [RAY-1:0] box_ray, locate_ray, triangle_ray, hit_ray;
+  logic [LEAF_FILES*RAY-1:0] leaf_ray;
   assign ray_direction_z = ray_direction_i[32*ray_kz+:32];
   context_file #(
       .WIDTH(RAY),
       .SLOT_BITS(SLOT_BITS),
-      .READS(4)
+      .READS(4 + LEAF_FILES)
   ) rays (
       .clk_i,
       .write_i(ray_take_o),
       .write_slot_i(ray_slot_o),
       .write_data_i({ray_any_hit_i, ray_negative_axes, ray_zero_axes, ray_kz, ray_ky, ray_kx, ray_direction_z,
                      ray_tmin_i, ray_origin_i}),
-      .read_slot_i({hit_slot, triangle_ray_slot, locate_slot, box_slot}),
-      .read_data_o({hit_ray, triangle_ray, locate_ray, box_ray})
+      .read_slot_i({leaf_reader_slot, hit_slot, triangle_ray_slot, locate_slot, box_slot}),
+      .read_data_o({leaf_ray, hit_ray, triangle_ray, locate_ray, box_ray})
   );
 
   localparam int RCP_DOWN = 0;
@@ -260,26 +270,27 @@ module ctu_unit #(
   );
 
   // Best hits by context, {t, u, v, primitive}: written by ray_queue and hit_update; read by box_test, triangle_test,
-  // hit_update, traversal_stack and for the host.
+  // hit_update, traversal_stack, the leaf readers and for the host.
   logic best_write;
   logic [SLOT_BITS-1:0] triangle_best_slot, stack_slot;
   logic [127:0] best_written, box_best, triangle_best, hit_best, stack_best;
+  logic [LEAF_FILES*128-1:0] leaf_best;
   context_file #(
       .WIDTH(128),
       .SLOT_BITS(SLOT_BITS),
       .WRITES(2),
-      .READS(5)
+      .READS(5 + LEAF_FILES)
   ) best_hits (
       .clk_i,
       .write_i({best_write, ray_take_o}),
       .write_slot_i({hit_slot, ray_slot_o}),
       .write_data_i({best_written, ray_tmax_i, 64'd0, 32'hffffffff}),
-      .read_slot_i({return_slot_o, stack_slot, hit_slot, triangle_best_slot, box_slot}),
-      .read_data_o({return_hit_o, stack_best, hit_best, triangle_best, box_best})
+      .read_slot_i({leaf_reader_slot, return_slot_o, stack_slot, hit_slot, triangle_best_slot, box_slot}),
+      .read_data_o({leaf_best, return_hit_o, stack_best, hit_best, triangle_best, box_best})
   );
 
   // Entry times of the four lanes by context: written by box_test; read by child_sort and traversal_stack. The other
-  // times of the slab test are there only for cell_locate.
+  // times of the slab test are there only for cell_locate, t1 for traversal_stack where primitive_cull wants it.
   logic times_write;
   logic [SLOT_BITS-1:0] times_write_slot, sort_slot;
   logic [127:0] t0_written, t1_written, sort_t0, stack_t0, locate_t0;
@@ -758,12 +769,46 @@ module ctu_unit #(
       assign refills = '0;
     end
   endgenerate
+  logic [127:0] stack_t1;
+  logic [31:0] stay_begin_written, stay_end_written, stay_begin, stay_end;
+  generate
+    if (PRIMITIVE_BOXES) begin : g_stays
+      context_file #(
+          .WIDTH(128),
+          .SLOT_BITS(SLOT_BITS)
+      ) exit_times (
+          .clk_i,
+          .write_i(times_write),
+          .write_slot_i(times_write_slot),
+          .write_data_i(t1_written),
+          .read_slot_i(stack_slot),
+          .read_data_o(stack_t1)
+      );
+      context_file #(
+          .WIDTH(64),
+          .SLOT_BITS(SLOT_BITS)
+      ) stays (
+          .clk_i,
+          .write_i(push[`CTU_STACK_TO_SCHEDULER]),
+          .write_slot_i(stack_slot),
+          .write_data_i({stay_end_written, stay_begin_written}),
+          .read_slot_i(leaf_reader_slot[0+:SLOT_BITS]),
+          .read_data_o({stay_end, stay_begin})
+      );
+    end else begin : g_no_stays
+      wire unused_stays = &{1'b0, t1_written, stay_begin_written, stay_end_written};
+      assign stack_t1 = '0;
+      assign stay_begin = '0;
+      assign stay_end = '0;
+    end
+  endgenerate
   traversal_stack #(
       .SLOT_BITS(SLOT_BITS),
       .MAX_ENTRIES(STACK_ENTRIES),
       .ADDRESS_BITS(ADDRESS_BITS),
       .LINE_BYTES(LINE_BYTES),
-      .HAS_SPILLS(HAS_SPILLS)
+      .HAS_SPILLS(HAS_SPILLS),
+      .EXITS(PRIMITIVE_BOXES)
   ) traversal_stack_stage (
       .clk_i,
       .rst_i,
@@ -793,16 +838,25 @@ module ctu_unit #(
       .slot_o(stack_slot),
       .children_i(node_children[128+:128]),
       .t0_i(stack_t0),
+      .t1_i(stack_t1),
       .best_t_i(stack_best[96+:32]),
       .visit_valid_o(),
       .visit_slot_o(),
+      .stay_begin_o(stay_begin_written),
+      .stay_end_o(stay_end_written),
       .activity_o(activity_o[4*`CTU_TRAVERSAL_STACK+:4])
   );
 
-  logic [SLOT_BITS-1:0] leaf_slot;
-  logic [3:0] leaf_index;
-  logic [287:0] leaf_vertices;
-  logic [31:0] leaf_primitive;
+  // Readers of a leaf, first one lowest: triangle_test; primitive_cull, of CULL_UNITS boxes; sphere_test.
+  localparam int CULL_PORTS = PRIMITIVE_BOXES ? CULL_UNITS : 0;
+  localparam int LEAF_READS = 1 + CULL_PORTS + 32'(SPHERES);
+  localparam int PRIMITIVE_WORDS = PRIMITIVE_BOXES ? 16 : 10;
+  localparam int PRIMITIVE = 32 * PRIMITIVE_WORDS;
+  logic [LEAF_READS*SLOT_BITS-1:0] leaf_slot;
+  logic [LEAF_READS*4-1:0] leaf_index;
+  logic [LEAF_READS*PRIMITIVE-1:0] leaf_read;
+  logic fetched_leaf_ready, fetched_leaf_push;
+  logic [REF-1:0] fetched_leaf;
   leaf_fetch #(
       .SLOT_BITS(SLOT_BITS),
       .ADDRESS_BITS(ADDRESS_BITS),
@@ -812,7 +866,9 @@ module ctu_unit #(
       .MAX_WAYS(MAX_WAYS),
       .MAX_MSHRS(MAX_MSHRS),
       .MAX_HIT_LATENCY(MAX_HIT_LATENCY),
-      .MAX_LEAF_BYTES(MAX_LEAF_BYTES)
+      .MAX_LEAF_BYTES(MAX_LEAF_BYTES),
+      .READ_PORTS(LEAF_READS),
+      .READ_WORDS(PRIMITIVE_WORDS)
   ) leaf_fetch_stage (
       .clk_i,
       .rst_i,
@@ -831,29 +887,131 @@ module ctu_unit #(
       .misses_ready_i(ready[`CTU_LEAF_TO_MEMORY]),
       .misses_push_o(push[`CTU_LEAF_TO_MEMORY]),
       .misses_data_o(leaf_to_memory_in),
-      .done_ready_i(ready[`CTU_LEAF_TO_TRIANGLE]),
-      .done_push_o(push[`CTU_LEAF_TO_TRIANGLE]),
-      .done_data_o(leaf_to_triangle_in),
+      .done_ready_i(fetched_leaf_ready),
+      .done_push_o(fetched_leaf_push),
+      .done_data_o(fetched_leaf),
       .activity_o(activity_o[4*`CTU_LEAF_FETCH+:4]),
       .triangle_slot_i(leaf_slot),
       .triangle_index_i(leaf_index),
-      .triangle_vertices_o(leaf_vertices),
-      .triangle_primitive_o(leaf_primitive)
+      .triangle_o(leaf_read)
   );
 
+  // What the leaf readers know of rays.
+  localparam int LEAF_DIRECTIONS = 96 * LEAF_FILES;
+  logic [LEAF_DIRECTIONS-1:0] leaf_direction;
+  generate
+    if (LEAF_READERS > 0) begin : g_leaf_readers
+      context_file #(
+          .WIDTH(96),
+          .SLOT_BITS(SLOT_BITS),
+          .READS(LEAF_READERS)
+      ) directions (
+          .clk_i,
+          .write_i(ray_take_o),
+          .write_slot_i(ray_slot_o),
+          .write_data_i(ray_direction_i),
+          .read_slot_i(leaf_reader_slot),
+          .read_data_o(leaf_direction)
+      );
+    end else begin : g_no_leaf_readers
+      assign leaf_reader_slot = '0;
+      assign leaf_direction = '0;
+      wire unused_leaf = &{1'b0, leaf_ray, leaf_best, leaf_direction};
+    end
+  endgenerate
+
+  // From the leaf's bytes to the primitives to test.
+  logic leaf_valid, leaf_pop, missed_valid, missed_pop;
+  logic [REF-1:0] leaf;
+  logic [15:0] leaf_met;
+  logic [SLOT_BITS-1:0] missed;
+  generate
+    if (PRIMITIVE_BOXES) begin : g_primitive_cull
+      `CTU_LINK(leaf_to_cull, `CTU_LEAF_TO_CULL, REF)
+      `CTU_LINK(cull_to_triangle, `CTU_CULL_TO_TRIANGLE, REF + 16)
+      `CTU_LINK(cull_to_hit, `CTU_CULL_TO_HIT, SLOT_BITS)
+      `CTU_NO_LINK(`CTU_LEAF_TO_TRIANGLE)
+      assign fetched_leaf_ready = ready[`CTU_LEAF_TO_CULL];
+      assign push[`CTU_LEAF_TO_CULL] = fetched_leaf_push;
+      assign leaf_to_cull_in = fetched_leaf;
+      assign leaf_valid = valid[`CTU_CULL_TO_TRIANGLE];
+      assign leaf = {cull_to_triangle_out[48+:SLOT_BITS], cull_to_triangle_out[31:0]};
+      assign leaf_met = cull_to_triangle_out[47:32];
+      assign pop[`CTU_CULL_TO_TRIANGLE] = leaf_pop;
+      assign missed_valid = valid[`CTU_CULL_TO_HIT];
+      assign missed = cull_to_hit_out;
+      assign pop[`CTU_CULL_TO_HIT] = missed_pop;
+
+      logic [SLOT_BITS-1:0] cull_slot;
+      logic [192*CULL_UNITS-1:0] boxes;
+      assign leaf_reader_slot[0+:SLOT_BITS] = cull_slot;
+      assign leaf_slot[SLOT_BITS+:CULL_UNITS*SLOT_BITS] = {CULL_UNITS{cull_slot}};
+      for (genvar u = 0; u < CULL_UNITS; u++) begin : g_box
+        assign boxes[192*u+:192] = leaf_read[PRIMITIVE*(1+u)+320+:192];
+      end
+      primitive_cull #(
+          .SLOT_BITS(SLOT_BITS),
+          .UNITS(CULL_UNITS),
+          .LATENCY(CULL_LATENCY)
+      ) primitive_cull_stage (
+          .clk_i,
+          .rst_i,
+          .leaf_valid_i(valid[`CTU_LEAF_TO_CULL]),
+          .leaf_data_i(leaf_to_cull_out),
+          .leaf_pop_o(pop[`CTU_LEAF_TO_CULL]),
+          .passed_ready_i(ready[`CTU_CULL_TO_TRIANGLE]),
+          .passed_push_o(push[`CTU_CULL_TO_TRIANGLE]),
+          .passed_data_o(cull_to_triangle_in),
+          .missed_ready_i(ready[`CTU_CULL_TO_HIT]),
+          .missed_push_o(push[`CTU_CULL_TO_HIT]),
+          .missed_data_o(cull_to_hit_in),
+          .slot_o(cull_slot),
+          .ray_origin_i(leaf_ray[ORIGIN+:96]),
+          .ray_direction_i(leaf_direction[95:0]),
+          .stay_begin_i(stay_begin),
+          .stay_end_i(stay_end),
+          .best_t_i(leaf_best[96+:32]),
+          .index_o(leaf_index[4+:4*CULL_UNITS]),
+          .box_i(boxes),
+          .activity_o(activity_o[4*`CTU_PRIMITIVE_CULL+:4])
+      );
+    end else begin : g_all_primitives
+      `CTU_LINK(leaf_to_triangle, `CTU_LEAF_TO_TRIANGLE, REF)
+      `CTU_NO_LINK(`CTU_LEAF_TO_CULL)
+      `CTU_NO_LINK(`CTU_CULL_TO_TRIANGLE)
+      `CTU_NO_LINK(`CTU_CULL_TO_HIT)
+      assign fetched_leaf_ready = ready[`CTU_LEAF_TO_TRIANGLE];
+      assign push[`CTU_LEAF_TO_TRIANGLE] = fetched_leaf_push;
+      assign leaf_to_triangle_in = fetched_leaf;
+      assign leaf_valid = valid[`CTU_LEAF_TO_TRIANGLE];
+      assign leaf = leaf_to_triangle_out;
+      assign leaf_met = 16'hffff;
+      assign pop[`CTU_LEAF_TO_TRIANGLE] = leaf_pop;
+      assign missed_valid = 1'b0;
+      assign missed = '0;
+      wire unused_stay = &{1'b0, stay_begin, stay_end, missed_pop};
+      assign activity_o[4*`CTU_PRIMITIVE_CULL+:4] = `CTU_IDLE;
+    end
+  endgenerate
+
+  logic tested_primitive_ready, tested_primitive_push, outcome_valid, outcome_pop;
+  logic [TESTED-1:0] tested_primitive, outcome;
   triangle_test #(
       .SLOT_BITS(SLOT_BITS),
-      .LATENCY(TRIANGLE_LATENCY)
+      .LATENCY(TRIANGLE_LATENCY),
+      .CULLED(PRIMITIVE_BOXES),
+      .SPHERES(SPHERES)
   ) triangle_test_stage (
       .clk_i,
       .rst_i,
       .interval_i(triangle_interval_i),
-      .leaf_valid_i(valid[`CTU_LEAF_TO_TRIANGLE]),
-      .leaf_data_i(leaf_to_triangle_out),
-      .leaf_pop_o(pop[`CTU_LEAF_TO_TRIANGLE]),
-      .tested_ready_i(ready[`CTU_TRIANGLE_TO_HIT]),
-      .tested_push_o(push[`CTU_TRIANGLE_TO_HIT]),
-      .tested_data_o(triangle_to_hit_in),
+      .leaf_valid_i(leaf_valid),
+      .leaf_data_i(leaf),
+      .leaf_met_i(leaf_met),
+      .leaf_pop_o(leaf_pop),
+      .tested_ready_i(tested_primitive_ready),
+      .tested_push_o(tested_primitive_push),
+      .tested_data_o(tested_primitive),
       .best_slot_o(triangle_best_slot),
       .best_t_i(triangle_best[96+:32]),
       .ray_slot_o(triangle_ray_slot),
@@ -865,21 +1023,75 @@ module ctu_unit #(
       .ray_sx_i(triangle_setup[SX+:32]),
       .ray_sy_i(triangle_setup[SY+:32]),
       .ray_tmin_i(triangle_ray[TMIN+:32]),
-      .triangle_slot_o(leaf_slot),
-      .triangle_index_o(leaf_index),
-      .triangle_i({leaf_primitive, leaf_vertices}),
+      .triangle_slot_o(leaf_slot[0+:SLOT_BITS]),
+      .triangle_index_o(leaf_index[3:0]),
+      .triangle_i(leaf_read[319:0]),
       .activity_o(activity_o[4*`CTU_TRIANGLE_TEST+:4])
   );
+  generate
+    if (SPHERES) begin : g_sphere_test
+      `CTU_LINK(triangle_to_sphere, `CTU_TRIANGLE_TO_SPHERE, TESTED)
+      `CTU_LINK(sphere_to_hit, `CTU_SPHERE_TO_HIT, TESTED)
+      `CTU_NO_LINK(`CTU_TRIANGLE_TO_HIT)
+      assign tested_primitive_ready = ready[`CTU_TRIANGLE_TO_SPHERE];
+      assign push[`CTU_TRIANGLE_TO_SPHERE] = tested_primitive_push;
+      assign triangle_to_sphere_in = tested_primitive;
+      assign outcome_valid = valid[`CTU_SPHERE_TO_HIT];
+      assign outcome = sphere_to_hit_out;
+      assign pop[`CTU_SPHERE_TO_HIT] = outcome_pop;
+
+      logic [SLOT_BITS-1:0] sphere_slot;
+      assign leaf_reader_slot[SLOT_BITS*SPHERE_READER+:SLOT_BITS] = sphere_slot;
+      assign leaf_slot[SLOT_BITS*(LEAF_READS-1)+:SLOT_BITS] = sphere_slot;
+      sphere_test #(
+          .SLOT_BITS(SLOT_BITS),
+          .LATENCY(SPHERE_LATENCY)
+      ) sphere_test_stage (
+          .clk_i,
+          .rst_i,
+          .tested_valid_i(valid[`CTU_TRIANGLE_TO_SPHERE]),
+          .tested_data_i(triangle_to_sphere_out),
+          .tested_pop_o(pop[`CTU_TRIANGLE_TO_SPHERE]),
+          .outcome_ready_i(ready[`CTU_SPHERE_TO_HIT]),
+          .outcome_push_o(push[`CTU_SPHERE_TO_HIT]),
+          .outcome_data_o(sphere_to_hit_in),
+          .slot_o(sphere_slot),
+          .index_o(leaf_index[4*(LEAF_READS-1)+:4]),
+          .ray_origin_i(leaf_ray[RAY*SPHERE_READER+ORIGIN+:96]),
+          .ray_direction_i(leaf_direction[96*SPHERE_READER+:96]),
+          .ray_tmin_i(leaf_ray[RAY*SPHERE_READER+TMIN+:32]),
+          .best_t_i(leaf_best[128*SPHERE_READER+96+:32]),
+          .centre_i(leaf_read[PRIMITIVE*(LEAF_READS-1)+:96]),
+          .radius_i(leaf_read[PRIMITIVE*(LEAF_READS-1)+96+:32]),
+          .activity_o(activity_o[4*`CTU_SPHERE_TEST+:4])
+      );
+    end else begin : g_triangles_only
+      `CTU_LINK(triangle_to_hit, `CTU_TRIANGLE_TO_HIT, TESTED)
+      `CTU_NO_LINK(`CTU_TRIANGLE_TO_SPHERE)
+      `CTU_NO_LINK(`CTU_SPHERE_TO_HIT)
+      assign tested_primitive_ready = ready[`CTU_TRIANGLE_TO_HIT];
+      assign push[`CTU_TRIANGLE_TO_HIT] = tested_primitive_push;
+      assign triangle_to_hit_in = tested_primitive;
+      assign outcome_valid = valid[`CTU_TRIANGLE_TO_HIT];
+      assign outcome = triangle_to_hit_out;
+      assign pop[`CTU_TRIANGLE_TO_HIT] = outcome_pop;
+      assign activity_o[4*`CTU_SPHERE_TEST+:4] = `CTU_IDLE;
+    end
+  endgenerate
 
   hit_update #(
       .SLOT_BITS(SLOT_BITS),
-      .LATENCY(HIT_LATENCY)
+      .LATENCY(HIT_LATENCY),
+      .HAS_MISSED(PRIMITIVE_BOXES)
   ) hit_update_stage (
       .clk_i,
       .rst_i,
-      .tested_valid_i(valid[`CTU_TRIANGLE_TO_HIT]),
-      .tested_data_i(triangle_to_hit_out),
-      .tested_pop_o(pop[`CTU_TRIANGLE_TO_HIT]),
+      .tested_valid_i(outcome_valid),
+      .tested_data_i(outcome),
+      .tested_pop_o(outcome_pop),
+      .missed_valid_i(missed_valid),
+      .missed_data_i(missed),
+      .missed_pop_o(missed_pop),
       .done_ready_i(ready[`CTU_HIT_TO_STACK]),
       .done_push_o(push[`CTU_HIT_TO_STACK]),
       .done_data_o(hit_to_stack_in),

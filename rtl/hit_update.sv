@@ -12,13 +12,18 @@
 
 module hit_update #(
     parameter int SLOT_BITS = 5,
-    parameter int LATENCY = 2
+    parameter int LATENCY = 2,
+    parameter bit HAS_MISSED = 1'b0  // leaves come that have nothing to test
 ) (
     input  logic                                    clk_i,
     input  logic                                    rst_i,
     input  logic                                    tested_valid_i,
     input  logic [SLOT_BITS+`CTU_TESTED_FIELDS-1:0] tested_data_i,
     output logic                                    tested_pop_o,
+    // Contexts whose leaf had nothing to test, from primitive_cull; they go first.
+    input  logic                                    missed_valid_i,
+    input  logic [                   SLOT_BITS-1:0] missed_data_i,
+    output logic                                    missed_pop_o,
     input  logic                                    done_ready_i,
     output logic                                    done_push_o,
     output logic [                     SLOT_BITS:0] done_data_o,       // a leaf done
@@ -36,7 +41,11 @@ module hit_update #(
 );
   logic [3:0] unused_index;
   logic last, hit;
-  assign {best_slot_o, unused_index, last, hit, best_t_o, best_u_o, best_v_o, best_primitive_o} = tested_data_i;
+  logic [SLOT_BITS-1:0] tested_slot;
+  assign {tested_slot, unused_index, last, hit, best_t_o, best_u_o, best_v_o, best_primitive_o} = tested_data_i;
+  wire missed = HAS_MISSED && missed_valid_i;
+  assign best_slot_o = missed ? missed_data_i : tested_slot;
+  wire unused_missed = &{1'b0, missed_valid_i, missed_data_i};
 
   logic nearer, equal, unused_unordered, replaces, has_hit;
   float_compare compare (
@@ -47,9 +56,9 @@ module hit_update #(
       .unordered_o(unused_unordered)
   );
   always_comb begin
-    replaces = hit && (nearer || (equal && best_primitive_o < best_primitive_i));
+    replaces = hit && !missed && (nearer || (equal && best_primitive_o < best_primitive_i));
 `ifdef CTU_MUTATE_HIT_LATER_WINS
-    replaces = hit && (nearer || equal);
+    replaces = hit && !missed && (nearer || equal);
 `endif
     has_hit = (replaces ? best_primitive_o : best_primitive_i) != 32'hffffffff;
 `ifdef CTU_MUTATE_HIT_BEFORE_UPDATE
@@ -59,13 +68,14 @@ module hit_update #(
   assign best_write_o = tested_pop_o && replaces;
 
   logic can_enter, enable, empty, unused_start, unused_exit_valid;  // a token starts while it is popped
-  assign tested_pop_o = tested_valid_i && can_enter;
+  assign missed_pop_o = missed && can_enter;
+  assign tested_pop_o = tested_valid_i && can_enter && !missed;
   pipe_control #(
       .LATENCY(LATENCY)
   ) control (
       .clk_i,
       .rst_i,
-      .enter_i(tested_pop_o && last),
+      .enter_i(missed_pop_o || (tested_pop_o && last)),
       .occupies_i(1'b1),
       .ready_i(done_ready_i),
       .can_enter_o(can_enter),
@@ -85,5 +95,5 @@ module hit_update #(
       .data_o(done_data_o)
   );
 
-  assign activity_o = !enable ? `CTU_OUTPUT_FULL : tested_pop_o || !empty ? `CTU_BUSY : `CTU_IDLE;
+  assign activity_o = !enable ? `CTU_OUTPUT_FULL : missed_pop_o || tested_pop_o || !empty ? `CTU_BUSY : `CTU_IDLE;
 endmodule

@@ -1,10 +1,10 @@
-// leaf_fetch: brings the bytes of all triangles of a leaf through leaf_cache, and keeps them by context.
+// leaf_fetch: brings the bytes of all primitives of a leaf through leaf_cache, and keeps them by context.
 //
 //   latency and interval as line_fetch
 //   twin    model/pipeline/leaf_fetch.h; addresses as UnitImage::leaf_bytes, triangles as in model/accel/image.h
 //   stated  docs/unit.md
 //
-// A triangle can be read by context and place in its leaf from the cycle in which the leaf leaves, until the next leaf
+// A primitive can be read by context and place in its leaf from the cycle in which the leaf leaves, until the next leaf
 // of the context is asked for. Address and lines are found in the cycle in which the token is taken.
 module leaf_fetch #(
     parameter int SLOT_BITS = 1,
@@ -15,7 +15,9 @@ module leaf_fetch #(
     parameter int MAX_WAYS = 2,
     parameter int MAX_MSHRS = 4,
     parameter int MAX_HIT_LATENCY = 4,
-    parameter int MAX_LEAF_BYTES = 80,  // triangles at most * stride
+    parameter int MAX_LEAF_BYTES = 80,  // primitives at most * stride
+    parameter int READ_PORTS = 1,       // primitives read at once
+    parameter int READ_WORDS = 10,      // of each: 10, or 16 with its box
     localparam int SET_BITS = MAX_SETS == 1 ? 1 : $clog2(MAX_SETS)
 ) (
     input logic clk_i,
@@ -44,11 +46,10 @@ module leaf_fetch #(
     output logic [  SLOT_BITS+31:0] done_data_o,       // ref
     output logic [             3:0] activity_o,
 
-    // A triangle of a context's leaf.
-    input  logic [SLOT_BITS-1:0] triangle_slot_i,
-    input  logic [          3:0] triangle_index_i,
-    output logic [        287:0] triangle_vertices_o,  // v0.x lowest, then v0.y, v0.z, v1, v2
-    output logic [         31:0] triangle_primitive_o
+    // Primitives of contexts' leaves, the first port's lowest: v0.x lowest, then v0.y, v0.z, v1, v2, primitive, box.
+    input  logic [    READ_PORTS*SLOT_BITS-1:0] triangle_slot_i,
+    input  logic [            READ_PORTS*4-1:0] triangle_index_i,
+    output logic [READ_PORTS*32*READ_WORDS-1:0] triangle_o
 );
   localparam int SLOTS = 1 << SLOT_BITS;
   localparam int READ_BITS = $clog2(MAX_LEAF_BYTES / 4) + 1;
@@ -60,7 +61,13 @@ module leaf_fetch #(
   wire [17:0] bytes = (18'(reference[30:27]) + 18'd1) * 18'(triangle_stride_i);
   wire [ADDRESS_BITS-1:0] last = first + ADDRESS_BITS'(bytes) - ADDRESS_BITS'(1);
 
-  wire [READ_BITS-1:0] triangle_word = READ_BITS'(triangle_index_i) * READ_BITS'(triangle_stride_i[12:2]);
+  logic [READ_PORTS*READ_BITS-1:0] triangle_word;
+  generate
+    for (genvar port = 0; port < READ_PORTS; port++) begin : g_port
+      assign triangle_word[READ_BITS*port+:READ_BITS] =
+          READ_BITS'(triangle_index_i[4*port+:4]) * READ_BITS'(triangle_stride_i[12:2]);
+    end
+  endgenerate
   wire unused_stride = &{1'b0, triangle_stride_i[1:0]};
 
   logic [SLOT_BITS-1:0] done_slot;
@@ -75,8 +82,9 @@ module leaf_fetch #(
       .MAX_HIT_LATENCY(MAX_HIT_LATENCY),
       .MAX_SPAN_BYTES(MAX_LEAF_BYTES),
       .KEPT_BYTES(MAX_LEAF_BYTES),
-      .READ_WORDS(10),
-      .READ_BITS(READ_BITS)
+      .READ_WORDS(READ_WORDS),
+      .READ_BITS(READ_BITS),
+      .READ_PORTS(READ_PORTS)
   ) fetch (
       .clk_i,
       .rst_i,
@@ -101,7 +109,7 @@ module leaf_fetch #(
       .activity_o,
       .read_slot_i(triangle_slot_i),
       .read_word_i(triangle_word),
-      .read_o({triangle_primitive_o, triangle_vertices_o})
+      .read_o(triangle_o)
   );
 
   logic [31:0] references_q[SLOTS];

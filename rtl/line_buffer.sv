@@ -13,6 +13,7 @@ module line_buffer #(
     parameter int ORDINAL_BITS = 3,  // of lines of a span; those from LINES on are not kept
     parameter int READ_WORDS = 28,
     parameter int READ_BITS = 5,     // of word offsets in a span
+    parameter int READ_PORTS = 1,
     localparam int SLOTS = 1 << SLOT_BITS,
     localparam int LINE_BITS = 8 * LINE_BYTES,
     localparam int WORD_BITS = $clog2(LINE_BYTES / 4)
@@ -36,10 +37,10 @@ module line_buffer #(
     input logic [   ORDINAL_BITS-1:0] hit_ordinal_i,
     input logic [PORTS*LINE_BITS-1:0] hit_lines_i,
 
-    // READ_WORDS words of a context's span from a word on.
-    input  logic [    SLOT_BITS-1:0] read_slot_i,
-    input  logic [    READ_BITS-1:0] read_word_i,
-    output logic [32*READ_WORDS-1:0] read_o
+    // READ_WORDS words of a context's span from a word on, for each port.
+    input  logic [    READ_PORTS*SLOT_BITS-1:0] read_slot_i,
+    input  logic [    READ_PORTS*READ_BITS-1:0] read_word_i,
+    output logic [32*READ_PORTS*READ_WORDS-1:0] read_o
 );
   localparam int INDEX_BITS = $clog2(SLOTS * LINES);
   localparam int PORT_BITS = PORTS == 1 ? 1 : $clog2(PORTS);
@@ -86,12 +87,18 @@ module line_buffer #(
   // The lines that hold the words, then the words.
   localparam int READ_LINES = (LINE_BYTES / 4 - 1 + READ_WORDS + LINE_BYTES / 4 - 1) / (LINE_BYTES / 4);
   localparam int AT_BITS = READ_BITS > WORD_BITS ? READ_BITS + 1 : WORD_BITS + 1;
-  wire [AT_BITS-1:0] at = AT_BITS'(first_word_q[read_slot_i]) + AT_BITS'(read_word_i);
-  logic [READ_LINES*LINE_BITS-1:0] read_lines;
-  always_comb begin
-    for (int i = 0; i < READ_LINES; i++)
-      read_lines[LINE_BITS*i+:LINE_BITS] =
-          lines_q[INDEX_BITS'(read_slot_i)*INDEX_BITS'(LINES)+INDEX_BITS'(at[AT_BITS-1:WORD_BITS])+INDEX_BITS'(i)];
-  end
-  assign read_o = (32 * READ_WORDS)'(read_lines >> {at[WORD_BITS-1:0], 5'd0});
+  generate
+    for (genvar port = 0; port < READ_PORTS; port++) begin : g_read
+      wire [SLOT_BITS-1:0] slot = read_slot_i[SLOT_BITS*port+:SLOT_BITS];
+      wire [AT_BITS-1:0] at = AT_BITS'(first_word_q[slot]) + AT_BITS'(read_word_i[READ_BITS*port+:READ_BITS]);
+      logic [READ_LINES*LINE_BITS-1:0] read_lines;
+      always_comb begin
+        for (int i = 0; i < READ_LINES; i++)
+          read_lines[LINE_BITS*i+:LINE_BITS] =
+              lines_q[INDEX_BITS'(slot)*INDEX_BITS'(LINES)+INDEX_BITS'(at[AT_BITS-1:WORD_BITS])+INDEX_BITS'(i)];
+      end
+      assign read_o[32*READ_WORDS*port+:32*READ_WORDS] =
+          (32 * READ_WORDS)'(read_lines >> {at[WORD_BITS-1:0], 5'd0});
+    end
+  endgenerate
 endmodule

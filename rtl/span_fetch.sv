@@ -15,6 +15,7 @@ module span_fetch #(
     parameter int KEPT_BYTES = 116,      // of the span, from its first one on; the others are padding
     parameter int READ_WORDS = 29,
     parameter int READ_BITS = 1,
+    parameter int READ_PORTS = 1,
     localparam int SET_BITS = MAX_SETS == 1 ? 1 : $clog2(MAX_SETS)
 ) (
     input logic clk_i,
@@ -43,10 +44,10 @@ module span_fetch #(
     output logic [   SLOT_BITS-1:0] done_slot_o,
     output logic [             3:0] activity_o,
 
-    // READ_WORDS words of a context's span from a word on; complete from the cycle in which it is done.
-    input  logic [    SLOT_BITS-1:0] read_slot_i,
-    input  logic [    READ_BITS-1:0] read_word_i,
-    output logic [32*READ_WORDS-1:0] read_o
+    // READ_WORDS words of a context's span from a word on, for each port; complete from the cycle in which it is done.
+    input  logic [    READ_PORTS*SLOT_BITS-1:0] read_slot_i,
+    input  logic [    READ_PORTS*READ_BITS-1:0] read_word_i,
+    output logic [32*READ_PORTS*READ_WORDS-1:0] read_o
 );
   localparam int LINE_SHIFT = $clog2(LINE_BYTES);
   localparam int LINE_NUMBER_BITS = ADDRESS_BITS - LINE_SHIFT;
@@ -149,7 +150,8 @@ module span_fetch #(
       .LINES(LINES),
       .ORDINAL_BITS(ORDINAL_BITS),
       .READ_WORDS(READ_WORDS),
-      .READ_BITS(READ_BITS)
+      .READ_BITS(READ_BITS),
+      .READ_PORTS(READ_PORTS)
   ) buffer (
       .clk_i,
       .start_i(requests_pop_o),

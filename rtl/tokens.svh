@@ -3,6 +3,7 @@
 //   slot      {slot}                                                       SLOT_BITS
 //   ref       {slot, reference[31:0]}                                      also of leaves
 //   node      {slot, hits[3:0], survivors[3:0], order[7:0], asked[3:0]}    order: lane of place p at [2p+1:2p]
+//   culled    {slot, met[15:0], reference[31:0]}                           of leaves from primitive_cull
 //   tested    {slot, index[3:0], last, hit, t, u, v, primitive}            t, u, v are 0 where hit is 0
 //   leaf done {slot, finished}
 //   request   {address, id[7:0], write, data}                              data: a line, of writes; else left out

@@ -12,9 +12,9 @@
 //   stated  docs/unit.md
 //
 // On chip a context has a ring of MAX_ENTRIES places, one or several rows of as many banks as a line holds entries:
-// entry p lies at place p mod MAX_ENTRIES, in memory at byte 8 p of the context's region: reference, then t0. A
+// entry p lies at place p mod MAX_ENTRIES, in memory at byte 8 p of the context's region: reference, then t0; with EXITS at byte 16 p, and t1 behind. A
 // request's address is that of its batch's first entry; the line of a write holds the batch at its place, and memory
-// takes the 8 * spill_batch_i bytes from the address on and leaves the others as they are. A read gets the whole line.
+// takes the bytes of spill_batch_i entries from the address on and leaves the others as they are. A read gets the whole line.
 // As all sizes are powers of two no batch crosses a line or a row, and entries keep their place between line and row,
 // so nothing is shifted, and a cycle reads one row: for the top, or for the batch that is written.
 //
@@ -28,7 +28,8 @@ module traversal_stack #(
     parameter int DEPTH_BITS = 8,    // fewer than 1 << DEPTH_BITS entries of a ray, spilled ones included; at least 7
     parameter int ADDRESS_BITS = 32,
     parameter int LINE_BYTES = 128,
-    parameter bit HAS_SPILLS = 1'b1
+    parameter bit HAS_SPILLS = 1'b1,
+    parameter bit EXITS = 1'b0       // entries hold t1 too, for primitive_cull
 ) (
     input logic clk_i,
     input logic rst_i,
@@ -36,7 +37,7 @@ module traversal_stack #(
     // Straps.
     input logic [             6:0] entries_i,       // 1 .. MAX_ENTRIES
     input logic [             1:0] push_width_i,    // 1 .. 3
-    input logic [             6:0] spill_batch_i,   // a power of two, <= entries_i and <= LINE_BYTES / 8
+    input logic [             6:0] spill_batch_i,   // a power of two, <= entries_i and <= entries of a line
     input logic [ADDRESS_BITS-1:0] spill_base_i,
     input logic [ADDRESS_BITS-1:0] spill_region_i,  // bytes of a context, whole lines
 
@@ -64,16 +65,23 @@ module traversal_stack #(
     output logic [SLOT_BITS-1:0] slot_o,
     input  logic [        127:0] children_i,
     input  logic [        127:0] t0_i,
+    input  logic [        127:0] t1_i,        // with EXITS
     input  logic [         31:0] best_t_i,
 
     // A node's visit is done.
     output logic                 visit_valid_o,
     output logic [SLOT_BITS-1:0] visit_slot_o,
 
+    // With EXITS: the ray's stay in the box that it goes to.
+    output logic [31:0] stay_begin_o,
+    output logic [31:0] stay_end_o,
+
     output logic [3:0] activity_o
 );
   localparam int SLOTS = 1 << SLOT_BITS;
-  localparam int LINE_ENTRIES = LINE_BYTES / 8;
+  localparam int ENTRY = EXITS ? 96 : 64;    // bits on chip: t1, t0, reference
+  localparam int STRIDE = EXITS ? 128 : 64;  // in memory
+  localparam int LINE_ENTRIES = 8 * LINE_BYTES / STRIDE;
   localparam int BANKS = !HAS_SPILLS ? 4 : LINE_ENTRIES < MAX_ENTRIES ? LINE_ENTRIES : MAX_ENTRIES;
   localparam int BANK_BITS = $clog2(BANKS);
   localparam int PLACE_BITS = $clog2(MAX_ENTRIES);
@@ -91,13 +99,13 @@ module traversal_stack #(
   logic [DEPTH_BITS-1:0] depth_q, spilled_q;
   assign slot_o = slot_q;
 
-  // A row of its entries, bank 0 lowest: t0 above the reference.
-  logic [64*BANKS-1:0] row;
+  // A row of its entries, bank 0 lowest: t0 above the reference, t1 above that.
+  logic [ENTRY*BANKS-1:0] row;
   wire [PLACE_BITS-1:0] top_place = depth_q[PLACE_BITS-1:0] - PLACE_BITS'(1);
   wire [PLACE_BITS-1:0] read_place = job_q == JOB_PUSH ? spilled_q[PLACE_BITS-1:0] : top_place;
   wire [ROW_BITS-1:0] read_row = ROW_BITS'({slot_q, read_place} >> BANK_BITS);
   wire [BANK_BITS-1:0] top_bank = top_place[BANK_BITS-1:0];
-  wire [63:0] top = row[64*32'(top_bank)+:64];
+  wire [ENTRY-1:0] top = row[ENTRY*32'(top_bank)+:ENTRY];
 
   logic beyond, at_best, unused_unordered;
   float_compare compare_top (
@@ -166,6 +174,16 @@ module traversal_stack #(
   wire [1:0] nearest = order_q[1:0];
   assign to_scheduler_push_o = passes;
   assign to_scheduler_data_o = {slot_q, job_q == JOB_PUSH ? children_i[32*32'(nearest)+:32] : top[31:0]};
+  generate
+    if (EXITS) begin : g_stay
+      assign stay_begin_o = job_q == JOB_PUSH ? t0_i[32*32'(nearest)+:32] : top[63:32];
+      assign stay_end_o = job_q == JOB_PUSH ? t1_i[32*32'(nearest)+:32] : top[ENTRY-1-:32];
+    end else begin : g_no_stay
+      assign stay_begin_o = 32'd0;
+      assign stay_end_o = 32'd0;
+      wire unused_t1 = &{1'b0, t1_i};
+    end
+  endgenerate
   assign to_result_push_o = finishes;
   assign to_result_data_o = slot_q;
 
@@ -243,7 +261,7 @@ module traversal_stack #(
   end
 
   // What is pushed in this cycle, farthest first.
-  logic [191:0] pushed_entries;
+  logic [3*ENTRY-1:0] pushed_entries;
   generate
     for (genvar place = 0; place < 3; place++) begin : g_pushed
 `ifdef CTU_MUTATE_NEAREST_FIRST
@@ -252,33 +270,34 @@ module traversal_stack #(
       wire [1:0] number = to_push_q - 2'(place);
 `endif
       wire [1:0] lane = order_q[2*32'(number)+:2];
-      assign pushed_entries[64*place+:64] = {t0_i[32*32'(lane)+:32], children_i[32*32'(lane)+:32]};
+      assign pushed_entries[ENTRY*place+:ENTRY] =
+          ENTRY'({t1_i[32*32'(lane)+:32], t0_i[32*32'(lane)+:32], children_i[32*32'(lane)+:32]});
     end
   endgenerate
 
   wire [ROW_BITS-1:0] refill_row = ROW_BITS'({refill_slot, refill_first[PLACE_BITS-1:0]} >> BANK_BITS);
   generate
     for (genvar bank = 0; bank < BANKS; bank++) begin : g_bank
-      logic [63:0] entries_q[1 << ROW_BITS];
-      assign row[64*bank+:64] = entries_q[read_row];
+      logic [ENTRY-1:0] entries_q[1 << ROW_BITS];
+      assign row[ENTRY*bank+:ENTRY] = entries_q[read_row];
 
       // Which of the pushed ones comes here, if any.
       wire [BANK_BITS-1:0] which = BANK_BITS'(bank) - depth_q[BANK_BITS-1:0];
       wire is_pushed = pushes && which < BANK_BITS'(pushed);
       wire [1:0] pushed_which = which[1:0];
-      wire [63:0] entry = pushed_entries[64*32'(pushed_which)+:64];
+      wire [ENTRY-1:0] entry = pushed_entries[ENTRY*32'(pushed_which)+:ENTRY];
       wire [PLACE_BITS-1:0] place = depth_q[PLACE_BITS-1:0] + PLACE_BITS'(pushed_which);
       wire [ROW_BITS-1:0] pushed_row = ROW_BITS'({slot_q, place} >> BANK_BITS);
       if (HAS_SPILLS) begin : g_spills
         wire [BANK_BITS-1:0] refill_which = BANK_BITS'(bank) - refill_first[BANK_BITS-1:0];
         wire is_refilled = refills_pop_o && 7'(refill_which) < spill_batch_i;
-        logic [63:0] refill;
+        logic [ENTRY-1:0] refill;
         if (LINE_ENTRIES == BANKS) begin : g_one
-          assign refill = refills_data_i[64*bank+:64];
+          assign refill = refills_data_i[STRIDE*bank+:ENTRY];
         end else begin : g_choice
           localparam int PART_BITS = $clog2(LINE_ENTRIES / BANKS);
           wire [PART_BITS-1:0] part = refill_first[BANK_BITS+:PART_BITS];
-          assign refill = refills_data_i[64*(BANKS*32'(part)+bank)+:64];
+          assign refill = refills_data_i[STRIDE*(BANKS*32'(part)+bank)+:ENTRY];
         end
         always_ff @(posedge clk_i) begin
           if (is_pushed) entries_q[pushed_row] <= entry;
@@ -299,9 +318,13 @@ module traversal_stack #(
       wire [DEPTH_BITS-1:0] first = job_q == JOB_PUSH ? spilled_q : spilled_q - DEPTH_BITS'(spill_batch_i);
 `endif
       wire [ADDRESS_BITS-1:0] address =
-          spill_base_i + ADDRESS_BITS'(slot_q) * spill_region_i + (ADDRESS_BITS'(first) << 3);
+          spill_base_i + ADDRESS_BITS'(slot_q) * spill_region_i + (ADDRESS_BITS'(first) << $clog2(STRIDE / 8));
       assign spills_push_o = spills || refills;
-      assign spills_data_o = {address, `CTU_ID_BITS'(slot_q), spills, {(LINE_ENTRIES / BANKS) {row}}};
+      logic [STRIDE*BANKS-1:0] written;
+      for (genvar bank = 0; bank < BANKS; bank++) begin : g_written
+        assign written[STRIDE*bank+:STRIDE] = STRIDE'(row[ENTRY*bank+:ENTRY]);
+      end
+      assign spills_data_o = {address, `CTU_ID_BITS'(slot_q), spills, {(LINE_ENTRIES / BANKS) {written}}};
     end else begin : g_no_requests
       assign spills_push_o = 1'b0;
       assign spills_data_o = '0;

@@ -1,7 +1,8 @@
-// triangle_test: all triangles of a leaf, one after the other, into one watertight triangle tester.
+// triangle_test: the triangles of a leaf, one after the other, into one watertight triangle tester. Spheres go through it
+// untested, primitives that primitive_cull has thrown away not at all.
 //
 //   in   leaf    a context and the leaf whose bytes have come
-//   out  tested  one outcome for each triangle; t, u, v are +0 without a hit
+//   out  tested  one outcome for each primitive; t, u, v are +0 without a hit
 //   latency LATENCY + interval_i - 1, from 1; a triangle each interval_i cycles
 //   twin    model/pipeline/triangle_test.h; arithmetic: triangle_intersect.sv
 //   stated  docs/unit.md
@@ -13,7 +14,9 @@
 
 module triangle_test #(
     parameter int SLOT_BITS = 5,
-    parameter int LATENCY = 45
+    parameter int LATENCY = 45,
+    parameter bit CULLED = 1'b0,   // leaves come from primitive_cull
+    parameter bit SPHERES = 1'b0   // some primitives are spheres
 ) (
     input  logic clk_i,
     input  logic rst_i,
@@ -21,6 +24,7 @@ module triangle_test #(
 
     input  logic                  leaf_valid_i,
     input  logic [SLOT_BITS+31:0] leaf_data_i,
+    input  logic [          15:0] leaf_met_i,    // with CULLED: the primitives to test
     output logic                  leaf_pop_o,
 
     input  logic                                  tested_ready_i,
@@ -49,28 +53,39 @@ module triangle_test #(
 
     output logic [3:0] activity_o
 );
-  // The triangle that takes the entrance: the first one of the next leaf, or the next one of this leaf.
+  // The primitive that takes the entrance: the first one of the next leaf, or the next one of this leaf; and what of the
+  // leaf is behind it, as a number or, with CULLED, one by one.
+  localparam int REST = CULLED ? 16 : 4;
   logic [SLOT_BITS-1:0] slot_q, entering_slot;
-  logic [3:0] index_q, rest_q, entering_index, entering_rest;  // rest: triangles of the leaf behind it
+  logic [3:0] index_q, entering_index;
+  logic [REST-1:0] rest_q, entering_rest;
   logic [31:0] best_t_q;
   logic can_enter, waits, enter, start, enable, exit_valid, leaves, empty;
   always_comb begin
-    entering_slot = slot_q;
-    entering_index = index_q + 4'd1;
-    entering_rest = rest_q - 4'd1;
-    if (rest_q == 4'd0) begin
-      entering_slot = leaf_data_i[SLOT_BITS+31:32];
-      entering_index = 4'd0;
-      entering_rest = leaf_data_i[30:27];
-    end
-    waits = rest_q != 4'd0 || leaf_valid_i;
+    entering_slot = rest_q == '0 ? leaf_data_i[SLOT_BITS+31:32] : slot_q;
+    waits = rest_q != '0 || leaf_valid_i;
     enter = waits && can_enter;
-    leaf_pop_o = enter && rest_q == 4'd0;
+    leaf_pop_o = enter && rest_q == '0;
   end
-  wire unused_reference = &{1'b0, leaf_data_i[31], leaf_data_i[26:0]};
+  wire unused_reference = &{1'b0, leaf_data_i[31:0], leaf_met_i};
+  generate
+    if (CULLED) begin : g_culled
+      wire [15:0] waiting = rest_q == '0 ? leaf_met_i : rest_q;
+      always_comb begin
+        entering_index = 4'd0;
+        for (int i = 15; i >= 0; i--) if (waiting[i]) entering_index = 4'(i);
+        entering_rest = waiting & (waiting - 16'd1);
+      end
+    end else begin : g_all
+      always_comb begin
+        entering_index = rest_q == '0 ? 4'd0 : index_q + 4'd1;
+        entering_rest = rest_q == '0 ? leaf_data_i[30:27] : rest_q - 4'd1;
+      end
+    end
+  endgenerate
 
   always_ff @(posedge clk_i) begin
-    if (rst_i) rest_q <= 4'd0;
+    if (rst_i) rest_q <= '0;
     else if (enter) rest_q <= entering_rest;
   end
   always_ff @(posedge clk_i) begin
@@ -107,9 +122,9 @@ module triangle_test #(
   always_comb begin
     slot = can_enter ? entering_slot : slot_q;
     index = can_enter ? entering_index : index_q;
-    last = (can_enter ? entering_rest : rest_q) == 4'd0;
+    last = (can_enter ? entering_rest : rest_q) == '0;
 `ifdef CTU_MUTATE_TRIANGLE_LAST_EARLY
-    last = (can_enter ? entering_rest : rest_q) <= 4'd1;
+    last = (can_enter ? entering_rest : rest_q) <= REST'(1);
 `endif
     tmax = can_enter ? best_t_i : best_t_q;
 `ifdef CTU_MUTATE_BEST_AFTER_INTERVAL
@@ -153,7 +168,8 @@ module triangle_test #(
       .data_o({exit_slot, exit_index, exit_last, exit_primitive})
   );
   assign tested_push_o = leaves;
-  assign tested_data_o = {exit_slot, exit_index, exit_last, hit, t, u, v, exit_primitive};
+  wire sphere = SPHERES && exit_primitive[31];
+  assign tested_data_o = {exit_slot, exit_index, exit_last, sphere ? 97'd0 : {hit, t, u, v}, exit_primitive};
 
   always_comb begin
     activity_o = leaves || enter || !empty ? `CTU_BUSY : `CTU_IDLE;

@@ -130,10 +130,11 @@ struct TablesArgs {
 struct AreaArgs {
   UnitArgs unit;
   int resolution = 4;
-  int ray_resolution = 0;       ///< 0: as resolution
-  int entries = 0;              ///< of the compression LUT; 0: masks are not compressed
-  std::uint32_t box_bits = 32;  ///< of a coordinate of the image's boxes
-  std::string rtl, cache;       ///< folders; empty: those of the source tree and of the user
+  int ray_resolution = 0;                         ///< 0: as resolution
+  int entries = 0;                                ///< of the compression LUT; 0: masks are not compressed
+  std::uint32_t box_bits = 32;                    ///< of a coordinate of the image's boxes
+  bool primitive_boxes = false, spheres = false;  ///< the image has them
+  std::string rtl, cache;                         ///< folders; empty: those of the source tree and of the user
   std::string yosys = "yosys";
   std::string stages;  ///< list; empty: all
   int threads = 0;     ///< 0: all

@@ -17,17 +17,11 @@ module wide_div #(
     input  logic [`WIDE_BITS-1:0] b_i,
     output logic [          31:0] result_o
 );
-  // Above 2^128 the quotient overflows and below 2^-254 it is zero, by however much.
-  logic [12:0] exponent;  // two's complement, biased by 127
   logic [9:0] bounded;
-  always_comb begin
-    exponent = {2'd0, a_i[`WIDE_EXPONENT]} - {2'd0, b_i[`WIDE_EXPONENT]} + 13'd127;
-    if (exponent[12]) bounded = exponent[11:7] == 5'h1f ? exponent[9:0] : 10'h380;  // -128
-    else bounded = exponent[11:8] == 4'd0 ? exponent[9:0] : 10'd256;
-`ifdef CTU_MUTATE_WIDE_QUOTIENT_WRAPS
-    bounded = exponent[9:0];
-`endif
-  end
+  narrow_exponent bound (
+      .exponent_i({2'd0, a_i[`WIDE_EXPONENT]} - {2'd0, b_i[`WIDE_EXPONENT]} + 13'd127),
+      .bounded_o (bounded)
+  );
 
   logic [31:0] quotient;
   logic [63:0] unused_directed;

@@ -1,5 +1,5 @@
-// Wide numbers: what the triangle test computes with between its binary32 inputs and its binary32 results. Binary32's
-// significand, and an exponent so wide that no number the test can meet leaves its range; so there are no subnormals,
+// Wide numbers: what the tests of primitives compute with between its binary32 inputs and its binary32 results. Binary32's
+// significand, and an exponent so wide that no number the tests can meet leaves its range; so there are no subnormals,
 // infinities or NaNs.
 //
 //   bit  35      sign
@@ -12,9 +12,10 @@
 // binary64. Operands are normal too, but for those of wide_add: binary32's subnormals and zeros may stand there with
 // the exponent of the smallest normal numbers, as wide_from_float gives them without NORMALISE.
 //
-// Rounding is to nearest, ties to even. From differences of binary32 numbers (2^-149 .. 2^129) the test comes to
-// products of four factors, 2^-745 .. 2^392.
-//   twin    round24 in model/intersect/triangle_test.cpp, on binary64
+// Rounding is to nearest, ties to even. From differences of binary32 numbers (2^-149 .. 2^129) the triangle test
+// comes to products of four factors, 2^-745 .. 2^392; the sphere test to quotients of products of two by products of two,
+// 2^-610 .. 2^560.
+//   twin    round24 of model/intersect/round24.h, on binary64
 `ifndef CTU_WIDE_FORMAT_SVH
 `define CTU_WIDE_FORMAT_SVH
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "model/accel/image.h"
 #include "model/base/error.h"
 #include "model/cull/on_chip_tables.h"
 
@@ -109,18 +110,32 @@ void add_masks(Collector& all, const pipeline::UnitConfig& config, const cull::M
   all.set_if_there("TABLE_PORTS", config.table_cache.ports, 1, "table_cache.ports");
 }
 
+constexpr std::int64_t kLeafPrimitives = 4;
+
+void add_primitives(Collector& all, const pipeline::UnitConfig& config, const ImageParts& image) {
+  all.set_if_there("PRIMITIVE_BOXES", image.primitive_boxes, 0, "--primitive-boxes");
+  all.set_if_there("SPHERES", image.spheres, 0, "--spheres");
+  if (image.primitive_boxes) {
+    all.set("MAX_LEAF_BYTES", kLeafPrimitives * accel::primitive_bytes({.primitive_boxes = true}));
+    all.set("CULL_UNITS", config.primitive_cull.units);
+    all.set("CULL_LATENCY", config.primitive_cull.latency);
+  }
+  if (image.spheres) all.set("SPHERE_LATENCY", config.sphere_test.latency);
+}
+
 }  // namespace
 
 RtlParameters unit_parameters(const pipeline::UnitConfig& config, const cull::MaskOptions& masks,
-                              const std::filesystem::path& top, std::uint32_t box_bits) {
+                              const std::filesystem::path& top, const ImageParts& image) {
   const Design design = config.mask_test.design;
   if (design == Design::Ideal)
     throw Error("mask_test.design", "ideal exists in software only", "choose another design");
   Collector all(top);
   all.set("DESIGN", static_cast<int>(design));
   all.set("SLOT_BITS", bits_for(config.unit.contexts));
-  all.set_if_there("BOX_BITS", box_bits, 32, "--box-bits");
-  if (box_bits != 32) all.set("DECODE_LATENCY", config.box_decode.latency);
+  all.set_if_there("BOX_BITS", image.box_bits, 32, "--box-bits");
+  if (image.box_bits != 32) all.set("DECODE_LATENCY", config.box_decode.latency);
+  add_primitives(all, config, image);
   all.set("STACK_ENTRIES", static_cast<int>(std::bit_ceil(static_cast<unsigned>(config.stack.entries))));
   add_caches(all, config);
   add_latencies(all, config);

@@ -9,10 +9,16 @@
 
 namespace ctu::area {
 
-/// Of masks count R, R_ray and the number of entries; `box_bits` of a coordinate of the image's boxes. Both caches have
-/// the sets, ways and miss registers of the larger one, as one parameter says it for both. The stack can spill. `top`
-/// is the source of the unit. Throws Error when the RTL does not have what the configuration asks for.
+/// What the image has that stages are there for, or are wider for.
+struct ImageParts {
+  std::uint32_t box_bits = 32;  ///< of a coordinate of the nodes' boxes
+  bool primitive_boxes = false, spheres = false;
+};
+
+/// Of masks count R, R_ray and the number of entries. Leaves have four primitives at most. Both caches have the sets,
+/// ways and miss registers of the larger one, as one parameter says it for both. The stack can spill. `top` is the
+/// source of the unit. Throws Error when the RTL does not have what the configuration asks for.
 RtlParameters unit_parameters(const pipeline::UnitConfig& config, const cull::MaskOptions& masks,
-                              const std::filesystem::path& top, std::uint32_t box_bits = 32);
+                              const std::filesystem::path& top, const ImageParts& image = {});
 
 }  // namespace ctu::area

@@ -20,6 +20,7 @@ CheckScene make_scene(std::uint64_t seed, SceneNumber number, const DrawSetup& d
   build.max_leaf_triangles = scene.setup.leaf_triangles;
   scene.bvh = accel::build(scene.hard.mesh, build);
   if (scene.setup.box_bits != accel::kFullBoxBits) accel::quantize_boxes(scene.bvh, scene.setup.box_bits, 1);
+  if (scene.setup.primitive_boxes) scene.leaf_boxes = reference::leaf_boxes(scene.bvh);
   const cull::MaskOptions& masks = scene.setup.masks;
   if (scene.setup.design != cull::Design::None) scene.masks = traces::make_masks(scene.bvh, masks, 1);
   if (scene.masks.lut)
@@ -29,9 +30,14 @@ CheckScene make_scene(std::uint64_t seed, SceneNumber number, const DrawSetup& d
   return scene;
 }
 
+reference::Traversal CheckScene::traversal() const {
+  return {bvh, &masks.masks, *tester, setup.primitive_boxes ? &leaf_boxes : nullptr, cull::RayBoxRule::OncePerLeaf};
+}
+
 accel::Image image_of(const CheckScene& scene) {
   accel::ImageLayout layout;
   layout.box_bits = scene.setup.box_bits;
+  layout.primitive_boxes = scene.setup.primitive_boxes;
   return traces::image_of(scene.bvh, scene.setup.design == cull::Design::None ? nullptr : &scene.masks, layout);
 }
 

@@ -8,6 +8,7 @@
 #include "model/accel/bvh4.h"
 #include "model/accel/image.h"
 #include "model/reference/node_test.h"
+#include "model/reference/traversal.h"
 #include "sim/check/culling_setup.h"
 #include "sim/check/hard_case.h"
 #include "traces/mask_set.h"
@@ -25,9 +26,12 @@ struct CheckScene {
   HardCase hard;
   CullingSetup setup;
   accel::Bvh4 bvh;
-  traces::MaskSet masks;  ///< empty with Design::None
+  traces::MaskSet masks;                        ///< empty with Design::None
+  std::vector<accel::PrimitiveBox> leaf_boxes;  ///< empty without ray boxes
   std::shared_ptr<const cull::MaskTester> tester;
 
+  /// Walks the scene as its unit does.
+  reference::Traversal traversal() const;
   reference::NodeTest node_test() const { return {bvh, &masks.masks, *tester}; }
 };
 

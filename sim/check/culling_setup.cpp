@@ -53,6 +53,7 @@ std::string to_string(const CullingSetup& setup) {
     if (masks.entries != 0) text += fmt::format(", {} entries", masks.entries);
   }
   if (setup.box_bits != accel::kFullBoxBits) text += fmt::format(", boxes of {} bits", setup.box_bits);
+  if (setup.primitive_boxes) text += ", ray boxes";
   return text + fmt::format(", leaves of {}", setup.leaf_triangles);
 }
 
@@ -88,6 +89,8 @@ CullingSetup draw_setup(const SetupChoice& choice, CaseRandom& random) {
   const std::uint32_t reduced = random.one_of(kReduced),
                       box_bits = random.chance(0.125) ? reduced : accel::kFullBoxBits;
   setup.box_bits = choice.box_bits.value_or(box_bits);
+  const bool primitive_boxes = random.chance(0.25);
+  setup.primitive_boxes = choice.primitive_boxes.value_or(primitive_boxes);
   return setup;
 }
 

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "model/reference/traversal.h"
-
 namespace ctu::sim::check {
 
 std::shared_ptr<const reference::RayBlock> record_rays(const CheckScene& scene) {
-  const reference::Traversal traversal(scene.bvh, &scene.masks.masks, *scene.tester);
+  const reference::Traversal traversal = scene.traversal();
   auto block = std::make_shared<reference::RayBlock>();
   block->rays = scene.hard.rays;
   for (const intersect::Ray& ray : block->rays) block->expected.push_back(traversal.trace(ray, &block->steps));

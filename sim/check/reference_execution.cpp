@@ -7,7 +7,7 @@ namespace {
 class ReferenceExecution : public Execution {
  public:
   Answers run(const CheckScene& scene, CaseRandom&) override {
-    const reference::Traversal traversal(scene.bvh, &scene.masks.masks, *scene.tester);
+    const reference::Traversal traversal = scene.traversal();
     Answers answers;
     answers.hits.reserve(scene.hard.rays.size());
     for (const intersect::Ray& ray : scene.hard.rays) answers.hits.push_back(traversal.trace(ray));

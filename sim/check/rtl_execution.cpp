@@ -45,6 +45,7 @@ class RtlExecution : public Execution {
 };
 
 bool has_what_is_chosen(const cosim::RtlParameters& build, const SetupChoice& choice) {
+  if (build.spheres) return false;  // the cases have none
   if (choice.box_bits && *choice.box_bits != build.box_bits) return false;
   if (std::find(choice.designs.begin(), choice.designs.end(), build.design) == choice.designs.end()) return false;
   if (build.design == cull::Design::None) return true;
@@ -70,9 +71,10 @@ DrawSetup draw_rtl_setup(const SetupChoice& choice) {
     fixed.resolution = build.resolution;
     fixed.ray_resolution = build.ray_resolution;
     fixed.box_bits = build.box_bits;
+    fixed.primitive_boxes = build.primitive_boxes;
     CullingSetup setup = draw_setup(fixed, random);
-    constexpr int kMostTriangles = cosim::kMaxLeafBytes / static_cast<int>(accel::kTriangleBytes);
-    setup.leaf_triangles = std::min(setup.leaf_triangles, kMostTriangles);
+    const auto bytes = static_cast<int>(accel::primitive_bytes({.primitive_boxes = build.primitive_boxes}));
+    setup.leaf_triangles = std::min(setup.leaf_triangles, build.max_leaf_bytes / bytes);
     setup.masks.entries = build.entries == 0 ? 0 : std::min(build.entries, std::max(setup.masks.entries, 16));
     return setup;
   };

@@ -63,6 +63,21 @@ void check_cache(Misfits& misfits, const std::string& name, const RtlParameters&
   misfits.at_most((name + ".hit_latency").c_str(), kMaxHitLatency, cache.hit_latency);
 }
 
+/// What leaves hold, and the stages that only some of it needs.
+void check_primitives(Misfits& misfits, const RtlParameters& build, const pipeline::UnitConfig& config,
+                      const accel::Image& image) {
+  misfits.same("primitive boxes", build.primitive_boxes, image.layout.primitive_boxes);
+  if (build.primitive_boxes) {
+    misfits.same("primitive_cull.units", build.cull_units, config.primitive_cull.units);
+    misfits.same("primitive_cull.latency", build.cull_latency, config.primitive_cull.latency);
+  }
+  if (image.sphere_count != 0) misfits.same("spheres", build.spheres, true);
+  if (build.spheres) {
+    misfits.same("spheres", build.spheres, image.sphere_count != 0);
+    misfits.same("sphere_test.latency", build.sphere_latency, config.sphere_test.latency);
+  }
+}
+
 void check_mask_test(Misfits& misfits, const RtlParameters& build, const pipeline::UnitConfig& config,
                      const pipeline::Work& work) {
   const cull::MaskOptions& masks = work.tester.options();
@@ -126,6 +141,7 @@ std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& confi
   if (build.box_bits != 32) misfits.same("box_decode.latency", build.decode_latency, config.box_decode.latency);
   misfits.same("box_test.latency", build.box_latency, config.box_test.latency);
   misfits.same("child_sort.latency", build.sort_latency, config.child_sort.latency);
+  check_primitives(misfits, build, config, work.image);
   misfits.same("triangle_test.latency", build.triangle_latency, config.triangle_test.latency);
   misfits.same("hit_update.latency", build.hit_latency, config.hit_update.latency);
   check_cache(misfits, "node_cache", build, config.node_cache, build.node_ports);
@@ -133,7 +149,7 @@ std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& confi
   if (build.design == config.mask_test.design && build.design != cull::Design::None)
     check_mask_test(misfits, build, config, work);
   // Last, as it looks at every node: a leaf that is larger would be read with the wrong triangles in it.
-  if (misfits.text().empty()) misfits.at_most("bytes of a leaf", kMaxLeafBytes, largest_leaf_bytes(work.image));
+  if (misfits.text().empty()) misfits.at_most("bytes of a leaf", build.max_leaf_bytes, largest_leaf_bytes(work.image));
   return misfits.text();
 }
 
@@ -156,7 +172,10 @@ pipeline::UnitConfig config_of(const RtlParameters& build) {
   config.box_decode.latency = build.decode_latency;
   config.box_test.latency = build.box_latency;
   config.child_sort.latency = build.sort_latency;
+  config.primitive_cull.units = build.cull_units;
+  config.primitive_cull.latency = build.cull_latency;
   config.triangle_test.latency = build.triangle_latency;
+  config.sphere_test.latency = build.sphere_latency;
   config.hit_update.latency = build.hit_latency;
   return config;
 }

@@ -10,9 +10,6 @@
 
 namespace ctu::cosim {
 
-/// The largest leaf that any build keeps (unit_bench.sv): four triangles that are not padded.
-inline constexpr int kMaxLeafBytes = 160;
-
 /// Why the build cannot run this; empty when it can.
 std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& config, const pipeline::Work& work);
 

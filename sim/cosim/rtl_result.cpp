@@ -21,7 +21,9 @@ constexpr int place_of_link(std::string_view name) {
 }
 constexpr int kNodeToBox = place_of_link("node_to_box"), kBoxToLocate = place_of_link("box_to_locate"),
               kBoxToSort = place_of_link("box_to_sort"), kMaskToSort = place_of_link("mask_to_sort"),
-              kLeafToTriangle = place_of_link("leaf_to_triangle"), kTriangleToHit = place_of_link("triangle_to_hit");
+              kLeafToTriangle = place_of_link("leaf_to_triangle"), kLeafToCull = place_of_link("leaf_to_cull"),
+              kTriangleToHit = place_of_link("triangle_to_hit"),
+              kTriangleToSphere = place_of_link("triangle_to_sphere");
 
 // Fields of a node token (token_bits.h).
 unsigned hits(const LinkState& link) { return link.token[0] >> 16 & 15u; }
@@ -35,11 +37,14 @@ bool anything_pushed(const RtlUnit& unit) {
 
 }  // namespace
 
-RtlObserver::RtlObserver(bool has_mask_test, bool has_table_fetch) {
+RtlObserver::RtlObserver(const RtlParameters& build) {
+  const bool has_mask_test = build.design != cull::Design::None;
   for (int stage = 0; stage < kStages; ++stage) {
     const std::string_view name = kStageNames[static_cast<std::size_t>(stage)];
     if (!has_mask_test && (name == "cell_locate" || name == "mask_test")) continue;
-    if (!has_table_fetch && name == "table_fetch") continue;
+    if (!build.table_cache && name == "table_fetch") continue;
+    if (!build.primitive_boxes && name == "primitive_cull") continue;
+    if (!build.spheres && name == "sphere_test") continue;
     stages_.push_back(stage);
     accounts_.emplace_back(name, kAllCauses);
   }
@@ -51,8 +56,8 @@ void RtlObserver::sample(const RtlUnit& unit) {
     accounts_[i].set(activity < pipeline::kActivities ? static_cast<Activity>(activity) : Activity::Idle);
   }
   counts_.node_visits += unit.link(kNodeToBox).pushed;
-  counts_.leaf_visits += unit.link(kLeafToTriangle).pushed;
-  counts_.triangle_tests += unit.link(kTriangleToHit).pushed;
+  counts_.leaf_visits += unit.link(kLeafToTriangle).pushed || unit.link(kLeafToCull).pushed;
+  counts_.triangle_tests += unit.link(kTriangleToHit).pushed || unit.link(kTriangleToSphere).pushed;
   for (const int link : {kBoxToLocate, kBoxToSort}) {
     const LinkState tested = unit.link(link);
     if (tested.pushed) counts_.box_hits += static_cast<unsigned>(std::popcount(hits(tested)));
@@ -78,7 +83,7 @@ pipeline::UnitResult run_rtl(RtlUnit& unit, const pipeline::UnitConfig& config, 
   std::array<int, kLinks> no_stalls;
   no_stalls.fill(-1);
   RtlRun run(unit, config, work, {}, no_stalls);
-  RtlObserver observer(config.mask_test.design != cull::Design::None, unit.parameters().table_cache);
+  RtlObserver observer(unit.parameters());
   Cycle last_moved = 0;
   std::uint64_t rays = 0;
   while (!run.done()) {

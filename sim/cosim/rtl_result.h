@@ -11,8 +11,7 @@ namespace ctu::cosim {
 
 class RtlObserver {
  public:
-  /// `has_mask_test`, `has_table_fetch`: whether these stages are there.
-  RtlObserver(bool has_mask_test, bool has_table_fetch);
+  explicit RtlObserver(const RtlParameters& build);
   /// Between RtlRun::begin and end.
   void sample(const RtlUnit& unit);
   /// Hits, cycles, what the links saw, the stages' accounts. What no link shows stays 0: uncertain lanes, dropped

@@ -29,7 +29,10 @@ struct RtlParameters {
   bool table_cache = false;
   int node_ports = 1, leaf_ports = 1, table_ports = 1;
   int line_bytes = 128;
-  std::uint32_t box_bits = 32;  ///< of a coordinate of the image's boxes
+  std::uint32_t box_bits = 32;                    ///< of a coordinate of the image's boxes
+  bool primitive_boxes = false, spheres = false;  ///< the image has them
+  int cull_units = 1;
+  int max_leaf_bytes = 160;
   int slot_bits = 6;
   int stack_entries = 16;  ///< on chip, at most
   bool has_spills = true;
@@ -39,7 +42,8 @@ struct RtlParameters {
   int max_mshrs = 64;
   int ray_interval = 3;  ///< at least
   int ray_setup_latency = 20, decode_latency = 5, box_latency = 11, locate_latency = 10, mask_latency = 2,
-      mask_second_latency = 1, sort_latency = 3, triangle_latency = 45, hit_latency = 2;
+      mask_second_latency = 1, sort_latency = 3, cull_latency = 10, triangle_latency = 45, sphere_latency = 89,
+      hit_latency = 2;
 };
 
 /// Where image, spilled entries and tables lie: what the unit is told before a run.

@@ -23,10 +23,12 @@ inline TokenBits bits_of(const pipeline::SlotToken& token, const TokenWidths& wi
   BitWriter(bits.data()).put(token.slot, widths.slot);
   return bits;
 }
-/// Of nodes and leaves alike.
-template <class Token>
-requires requires(Token token) { token.ref; }
-TokenBits bits_of(const Token& token, const TokenWidths& widths) {
+inline TokenBits bits_of(const pipeline::LeafToken& token, const TokenWidths& widths) {
+  TokenBits bits{};
+  BitWriter(bits.data()).put(token.ref, 32).put(token.met, 16).put(token.slot, widths.slot);
+  return bits;
+}
+inline TokenBits bits_of(const pipeline::RefToken& token, const TokenWidths& widths) {
   TokenBits bits{};
   BitWriter(bits.data()).put(token.ref, 32).put(token.slot, widths.slot);
   return bits;

@@ -21,6 +21,10 @@ module unit_bench #(
     parameter int LINE_BYTES = 128,
     parameter int SLOT_BITS = 6,
     parameter int BOX_BITS = 32,
+    parameter int PRIMITIVE_BOXES = 0,
+    parameter int SPHERES = 0,
+    parameter int CULL_UNITS = 1,
+    parameter int MAX_LEAF_BYTES = 160,
     parameter int STACK_ENTRIES = 64,
     parameter int HAS_SPILLS = 1,
     parameter int MAX_SETS = 256,
@@ -34,7 +38,9 @@ module unit_bench #(
     parameter int MASK_LATENCY = 2,
     parameter int MASK_SECOND_LATENCY = 1,
     parameter int SORT_LATENCY = 3,
+    parameter int CULL_LATENCY = 10,
     parameter int TRIANGLE_LATENCY = 45,
+    parameter int SPHERE_LATENCY = 89,
     parameter int HIT_LATENCY = 2,
     parameter int DISTINCT = 1270
 ) (
@@ -143,13 +149,16 @@ module unit_bench #(
       .TABLE_CACHE(TABLE_CACHE != 0),
       .TABLE_PORTS(TABLE_PORTS),
       .BOX_BITS(BOX_BITS),
+      .PRIMITIVE_BOXES(PRIMITIVE_BOXES != 0),
+      .SPHERES(SPHERES != 0),
+      .CULL_UNITS(CULL_UNITS),
       .STACK_ENTRIES(STACK_ENTRIES),
       .HAS_SPILLS(HAS_SPILLS != 0),
       .MAX_SETS(MAX_SETS),
       .MAX_WAYS(MAX_WAYS),
       .MAX_MSHRS(MAX_MSHRS),
       .MAX_HIT_LATENCY(31),
-      .MAX_LEAF_BYTES(160),
+      .MAX_LEAF_BYTES(MAX_LEAF_BYTES),
       .RAY_SETUP_LATENCY(RAY_SETUP_LATENCY),
       .MIN_RAY_INTERVAL(MIN_RAY_INTERVAL),
       .DECODE_LATENCY(DECODE_LATENCY),
@@ -158,7 +167,9 @@ module unit_bench #(
       .MASK_LATENCY(MASK_LATENCY),
       .MASK_SECOND_LATENCY(MASK_SECOND_LATENCY),
       .SORT_LATENCY(SORT_LATENCY),
+      .CULL_LATENCY(CULL_LATENCY),
       .TRIANGLE_LATENCY(TRIANGLE_LATENCY),
+      .SPHERE_LATENCY(SPHERE_LATENCY),
       .HIT_LATENCY(HIT_LATENCY),
       .LOAD_BITS(LOAD_BITS)
   ) unit (
@@ -264,8 +275,6 @@ module unit_bench #(
   assign link_data_o[`CTU_SCHEDULER_TO_LEAF] = 160'(unit.scheduler_to_leaf_in);
   assign link_data_o[`CTU_NODE_TO_BOX] = 160'(unit.node_to_box_in);
   assign link_data_o[`CTU_SORT_TO_STACK] = 160'(unit.sort_to_stack_in);
-  assign link_data_o[`CTU_LEAF_TO_TRIANGLE] = 160'(unit.leaf_to_triangle_in);
-  assign link_data_o[`CTU_TRIANGLE_TO_HIT] = 160'(unit.triangle_to_hit_in);
   assign link_data_o[`CTU_HIT_TO_STACK] = 160'(unit.hit_to_stack_in);
   assign link_data_o[`CTU_STACK_TO_SCHEDULER] = 160'(unit.stack_to_scheduler_in);
   assign link_data_o[`CTU_STACK_TO_RESULT] = 160'(unit.stack_to_result_in);
@@ -282,6 +291,29 @@ module unit_bench #(
     end else begin : g_no_spills
       assign link_data_o[`CTU_STACK_TO_MEMORY] = '0;
       assign link_data_o[`CTU_MEMORY_TO_STACK] = '0;
+    end
+    // Of leaves that have not been culled all primitives are to be tested.
+    wire [SLOT_BITS-1:0] leaf_slot = unit.fetched_leaf[32+:SLOT_BITS];
+    wire [SLOT_BITS+47:0] whole_leaf = {leaf_slot, 16'hffff, unit.fetched_leaf[31:0]};
+    if (PRIMITIVE_BOXES != 0) begin : g_primitive_cull
+      assign link_data_o[`CTU_LEAF_TO_TRIANGLE] = '0;
+      assign link_data_o[`CTU_LEAF_TO_CULL] = 160'(whole_leaf);
+      assign link_data_o[`CTU_CULL_TO_TRIANGLE] = 160'(unit.g_primitive_cull.cull_to_triangle_in);
+      assign link_data_o[`CTU_CULL_TO_HIT] = 160'(unit.g_primitive_cull.cull_to_hit_in);
+    end else begin : g_all_primitives
+      assign link_data_o[`CTU_LEAF_TO_TRIANGLE] = 160'(whole_leaf);
+      assign link_data_o[`CTU_LEAF_TO_CULL] = '0;
+      assign link_data_o[`CTU_CULL_TO_TRIANGLE] = '0;
+      assign link_data_o[`CTU_CULL_TO_HIT] = '0;
+    end
+    if (SPHERES != 0) begin : g_sphere_test
+      assign link_data_o[`CTU_TRIANGLE_TO_HIT] = '0;
+      assign link_data_o[`CTU_TRIANGLE_TO_SPHERE] = 160'(unit.tested_primitive);
+      assign link_data_o[`CTU_SPHERE_TO_HIT] = 160'(unit.g_sphere_test.sphere_to_hit_in);
+    end else begin : g_triangles_only
+      assign link_data_o[`CTU_TRIANGLE_TO_HIT] = 160'(unit.tested_primitive);
+      assign link_data_o[`CTU_TRIANGLE_TO_SPHERE] = '0;
+      assign link_data_o[`CTU_SPHERE_TO_HIT] = '0;
     end
     if (DESIGN != `CTU_DESIGN_NONE) begin : g_culling
       assign link_data_o[`CTU_BOX_TO_LOCATE] = 160'(unit.g_culling.box_to_locate_in);

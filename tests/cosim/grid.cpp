@@ -39,13 +39,15 @@ class Worlds {
  public:
   test::World& get(const std::string& trace, const RtlParameters& build, int rays) {
     const bool from_outside = build.rows == cull::TableRows::Reachable;  // only these have rows
-    auto& world = worlds_[fmt::format("{} {} {} {} {} {} {}", trace, static_cast<int>(build.design), build.resolution,
-                                      build.ray_resolution, build.entries, build.box_bits, from_outside)];
+    const int leaf_bytes = build.primitive_boxes ? build.max_leaf_bytes : 0;
+    auto& world = worlds_[fmt::format("{} {} {} {} {} {} {} {} {}", trace, static_cast<int>(build.design),
+                                      build.resolution, build.ray_resolution, build.entries, build.box_bits,
+                                      from_outside, leaf_bytes, build.spheres)];
     if (world) return *world;
-    world = make_grid_world(trace, build.design, mask_options(build), build.box_bits, rays);
+    world = make_grid_world(trace, build, rays);
     if (from_outside)
       world = std::make_unique<test::World>(world->tree(), build.design, rays_from_outside(*world), mask_options(build),
-                                            build.box_bits);
+                                            build.box_bits, build.primitive_boxes);
     return *world;
   }
 

@@ -106,6 +106,21 @@ const std::vector<GridConfig>& grid_configs() {
       {"boxes-8", "unit.contexts=3 node_cache.bytes=256 node_cache.ways=1", 51},
       {"boxes-16", "", 0},
       {"boxes-16", "memory.model=ideal memory.latency=5 memory.interval=1 unit.contexts=11", 52},
+      // What leaves may hold.
+      {"ray-boxes", "unit.contexts=8 node_cache.bytes=8192 leaf_cache.bytes=8192", 0, true},
+      {"ray-boxes",
+       "unit.contexts=5 node_cache.bytes=4096 leaf_cache.bytes=512 leaf_cache.ways=1 stack.entries=2 "
+       "stack.spill_batch=2",
+       60, true},
+      {"ray-boxes",
+       "unit.contexts=7 node_cache.bytes=8192 leaf_cache.bytes=8192 stack.entries=16 stack.spill_batch=8 "
+       "triangle_test.interval=4 memory.model=ideal memory.latency=30 memory.interval=1",
+       61},
+      {"ray-boxes-spheres", "unit.contexts=16", 0, true},
+      {"ray-boxes-spheres", "unit.contexts=9 stack.entries=1 stack.push_width=1 stack.spill_batch=1", 62, true},
+      {"ray-boxes-spheres", "memory.model=ideal memory.latency=2 memory.interval=1 unit.contexts=12", 63},
+      {"spheres", "unit.contexts=8", 0},
+      {"spheres", "unit.contexts=3 triangle_test.interval=3 leaf_cache.bytes=0", 64},
   };
   return configs;
 }

@@ -1,11 +1,13 @@
 #include "tests/cosim/grid_traces.h"
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
 #include "model/accel/build.h"
 #include "model/base/error.h"
 #include "model/scene/load.h"
+#include "tests/cosim/grid_configs.h"
 #include "tests/oracle/seed.h"
 #include "tests/support/aimed_rays.h"
 
@@ -130,10 +132,39 @@ std::vector<Ray> rays_of(const std::string& trace, RaySource& source, int count)
   return rays;
 }
 
-std::unique_ptr<test::World> make_hostile(cull::Design design, const cull::MaskOptions& masks, std::uint32_t box_bits,
-                                          int count) {
-  const test::ClosedMesh cube = test::closed_cube(4);
-  accel::Bvh4 tree = accel::build(cube.mesh, {});
+/// Balls of all sizes up to a tenth of the mesh, a point among them.
+void add_spheres(scene::Mesh& mesh) {
+  constexpr int kSpheres = 120;
+  std::mt19937_64 random(oracle::test_seed() + 1);
+  const auto uniform = [&] { return static_cast<float>(random() >> 40) * 0x1p-24f; };
+  const accel::Bvh4 tree = accel::build(mesh, {});
+  const float size = tree.upper.x - tree.lower.x;
+  for (int i = 0; i < kSpheres; ++i) {
+    scene::Sphere sphere;
+    for (int axis = 0; axis < 3; ++axis)
+      sphere.centre[axis] = tree.lower[axis] + uniform() * (tree.upper[axis] - tree.lower[axis]);
+    sphere.radius = i == 0 ? 0 : 0.1f * size * uniform() * uniform();
+    mesh.spheres.push_back(sphere);
+  }
+}
+
+/// The mesh with the build's kinds of primitives, in leaves as large as it keeps where it culls within them.
+accel::Bvh4 tree_for(const RtlParameters& build, scene::Mesh& mesh) {
+  if (build.spheres) add_spheres(mesh);
+  if (!build.primitive_boxes) return accel::build(mesh, {});
+  const auto bytes = static_cast<int>(accel::primitive_bytes({.primitive_boxes = true}));
+  return accel::build(mesh, {.max_leaf_triangles = std::min(build.max_leaf_bytes / bytes, accel::kMaxLeafTriangles),
+                             .triangle_cost = 0.01f});
+}
+
+std::unique_ptr<test::World> make_world(const RtlParameters& build, accel::Bvh4 tree, const std::vector<Ray>& rays) {
+  return std::make_unique<test::World>(std::move(tree), build.design, rays, mask_options(build), build.box_bits,
+                                       build.primitive_boxes);
+}
+
+std::unique_ptr<test::World> make_hostile(const RtlParameters& build, int count) {
+  test::ClosedMesh cube = test::closed_cube(4);
+  accel::Bvh4 tree = tree_for(build, cube.mesh);
   RaySource source(tree, cube.mesh);
   test::AimedRays aimed(cube, oracle::test_seed());
   std::vector<Ray> rays;
@@ -141,20 +172,19 @@ std::unique_ptr<test::World> make_hostile(cull::Design design, const cull::MaskO
     rays.push_back(i % 2 == 0
                        ? hostile_ray(source, i / 2)
                        : aimed.next(test::kFamilies[static_cast<std::size_t>(i / 2) % std::size(test::kFamilies)]));
-  return std::make_unique<test::World>(std::move(tree), design, rays, masks, box_bits);
+  return make_world(build, std::move(tree), rays);
 }
 
 }  // namespace
 
-std::unique_ptr<test::World> make_grid_world(const std::string& trace, cull::Design design,
-                                             const cull::MaskOptions& masks, std::uint32_t box_bits, int rays) {
-  if (trace == "hostile") return make_hostile(design, masks, box_bits, rays);
+std::unique_ptr<test::World> make_grid_world(const std::string& trace, const RtlParameters& build, int rays) {
+  if (trace == "hostile") return make_hostile(build, rays);
   const char* const scene = trace == "interior" ? "gen:foliage?twigs=40" : "gen:hair-ball?strands=200";
-  const scene::Mesh mesh = scene::load(scene).mesh;
-  accel::Bvh4 tree = accel::build(mesh, {});
+  scene::Mesh mesh = scene::load(scene).mesh;
+  accel::Bvh4 tree = tree_for(build, mesh);
   RaySource source(tree, mesh);
   const std::vector<Ray> list = rays_of(trace == "single" ? "hair" : trace, source, trace == "single" ? 1 : rays);
-  return std::make_unique<test::World>(std::move(tree), design, list, masks, box_bits);
+  return make_world(build, std::move(tree), list);
 }
 
 }  // namespace ctu::cosim

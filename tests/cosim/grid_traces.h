@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/cosim/rtl_unit.h"
 #include "tests/pipeline/world.h"
 
 namespace ctu::cosim {
@@ -15,9 +16,8 @@ inline const std::vector<std::string>& grid_traces() {
   return names;
 }
 
-/// `box_bits` of a coordinate of the nodes' boxes; `rays`: about how many. Same name, masks and numbers: the same
-/// world.
-std::unique_ptr<test::World> make_grid_world(const std::string& trace, cull::Design design,
-                                             const cull::MaskOptions& masks, std::uint32_t box_bits, int rays);
+/// A world that the build can run: its design, masks, boxes, leaves and kinds of primitives; `rays`: about how many.
+/// Same name and parameters: the same world.
+std::unique_ptr<test::World> make_grid_world(const std::string& trace, const RtlParameters& build, int rays);
 
 }  // namespace ctu::cosim

@@ -44,8 +44,7 @@ std::optional<Difference> find(RtlUnit& unit) {
   for (const char* settings : kSettings)
     for (const std::uint64_t stalls : {0, 5, 6})
       for (const char* trace : {"hair", "interior", "hostile"}) {
-        const auto world = make_grid_world(trace, unit.parameters().design, mask_options(unit.parameters()),
-                                           unit.parameters().box_bits, 150);
+        const auto world = make_grid_world(trace, unit.parameters(), 150);
         test::VectorFeed model_feed(world->blocks()), rtl_feed(world->blocks());
         LockStepOptions options;
         options.stall_seed = stalls;

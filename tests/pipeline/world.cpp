@@ -73,23 +73,23 @@ std::uint64_t VectorFeed::total_rays() const {
 }
 
 World::World(const std::string& scene, cull::Design design, int rays, const cull::MaskOptions& options,
-             std::uint32_t box_bits)
-    : World(accel::build(scene::load(scene).mesh, {}), design, {}, options, box_bits) {
+             std::uint32_t box_bits, bool primitive_boxes)
+    : World(accel::build(scene::load(scene).mesh, {}), design, {}, options, box_bits, primitive_boxes) {
   record(lines_through(tree_, rays));
 }
 
 World::World(accel::Bvh4 tree, cull::Design design, const std::vector<intersect::Ray>& rays,
-             const cull::MaskOptions& options, std::uint32_t box_bits)
+             const cull::MaskOptions& options, std::uint32_t box_bits, bool primitive_boxes)
     : tree_(quantized(std::move(tree), box_bits)),
       masks_(masks_of(tree_, design, options)),
       lut_(compress_masks(tree_, options, masks_)),
       tester_(design, options, lut_),
-      image_(make_image(box_bits)) {
+      image_(make_image(box_bits, primitive_boxes)) {
   record(rays);
 }
 
-accel::Image World::make_image(std::uint32_t box_bits) const {
-  accel::ImageLayout layout{.box_bits = box_bits};
+accel::Image World::make_image(std::uint32_t box_bits, bool primitive_boxes) const {
+  accel::ImageLayout layout{.box_bits = box_bits, .primitive_boxes = primitive_boxes};
   if (masks_.bits.empty()) return accel::make_image(tree_, nullptr, 0, layout);
   const auto r = static_cast<std::uint32_t>(masks_.resolution);
   layout.mask_bits = lut_ == nullptr ? r * r * r : static_cast<std::uint32_t>(lut_->index_bits());
@@ -99,7 +99,9 @@ accel::Image World::make_image(std::uint32_t box_bits) const {
 }
 
 void World::record(const std::vector<intersect::Ray>& rays) {
-  const reference::Traversal culled(tree_, &masks_, tester_);
+  const std::vector<accel::PrimitiveBox> boxes = reference::leaf_boxes(tree_);
+  const reference::Traversal culled(tree_, &masks_, tester_, image_.layout.primitive_boxes ? &boxes : nullptr,
+                                    cull::RayBoxRule::OncePerLeaf);
   for (std::size_t first = 0; first < rays.size(); first += kRaysPerBlock) {
     auto block = std::make_shared<reference::RayBlock>();
     block->first_ray = first;

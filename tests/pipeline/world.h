@@ -30,11 +30,12 @@ class VectorFeed : public reference::RayFeed {
 class World {
  public:
   /// `rays` lines through the scene: three in four closest-hit, one in four any-hit, one in 50 invalid.
-  /// `box_bits` of a coordinate of the nodes' boxes: 32, 16, 12 or 8.
+  /// `box_bits` of a coordinate of the nodes' boxes: 32, 16, 12 or 8; `primitive_boxes`: ray boxes cull in the leaves.
   World(const std::string& scene, cull::Design design, int rays, const cull::MaskOptions& options = {},
-        std::uint32_t box_bits = accel::kFullBoxBits);
+        std::uint32_t box_bits = accel::kFullBoxBits, bool primitive_boxes = false);
   World(accel::Bvh4 tree, cull::Design design, const std::vector<intersect::Ray>& rays,
-        const cull::MaskOptions& options = {}, std::uint32_t box_bits = accel::kFullBoxBits);
+        const cull::MaskOptions& options = {}, std::uint32_t box_bits = accel::kFullBoxBits,
+        bool primitive_boxes = false);
 
   pipeline::UnitConfig config() const;  ///< defaults with the world's design
   std::unique_ptr<pipeline::Engine> engine(const pipeline::UnitConfig& config, const pipeline::EngineOptions& options);
@@ -50,7 +51,7 @@ class World {
   void forget_steps();
 
  private:
-  accel::Image make_image(std::uint32_t box_bits) const;
+  accel::Image make_image(std::uint32_t box_bits, bool primitive_boxes) const;
   void record(const std::vector<intersect::Ray>& rays);
 
   accel::Bvh4 tree_;

@@ -29,7 +29,10 @@ class VerilatedWideUnits {
             .sum = model_.sum_o[0],
             .product = model_.product_o[0],
             .difference = model_.difference_o[0],
-            .quotient = model_.quotient_o[0]};
+            .quotient = model_.quotient_o[0],
+            .ratio = model_.ratio_o[0],
+            .root = model_.root_o[0],
+            .narrowed = model_.narrowed_o};
   }
 
  private:

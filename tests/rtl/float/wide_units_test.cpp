@@ -11,6 +11,8 @@
 #include "VMutantWideDifferenceSticky.h"
 #include "VMutantWideProductSticky.h"
 #include "VMutantWideQuotientWraps.h"
+#include "VMutantWideRatioSticky.h"
+#include "VMutantWideRootSticky.h"
 #include "VMutantWideTiesAway.h"
 #include "VMutantWideZeroSign.h"
 #include "VWidePipelines.h"
@@ -48,16 +50,21 @@ TEST(WideUnits, results_leave_after_exactly_the_latency_whatever_cycles_are_with
     entered.push_front({.sum = unit.sum_o[0],
                         .product = unit.product_o[0],
                         .difference = unit.difference_o[0],
-                        .quotient = unit.quotient_o[0]});
+                        .quotient = unit.quotient_o[0],
+                        .ratio = unit.ratio_o[0],
+                        .root = unit.root_o[0]});
     for (std::size_t latency = 1; latency < std::min(kLatencies, entered.size()); ++latency) {
       ASSERT_EQ(unit.sum_o[latency], entered[latency].sum) << "latency " << latency << ", cycle " << cycle;
       ASSERT_EQ(unit.product_o[latency], entered[latency].product) << "latency " << latency << ", cycle " << cycle;
       ASSERT_EQ(unit.difference_o[latency], entered[latency].difference)
           << "latency " << latency << ", cycle " << cycle;
     }
-    for (std::size_t i = 1; i < kLatencies && i * kDivideStep < entered.size(); ++i)
-      ASSERT_EQ(unit.quotient_o[i], entered[i * kDivideStep].quotient)
-          << "latency " << i * kDivideStep << ", cycle " << cycle;
+    for (std::size_t i = 1; i < kLatencies && i * kDivideStep < entered.size(); ++i) {
+      const WideResults& should = entered[i * kDivideStep];
+      ASSERT_EQ(unit.quotient_o[i], should.quotient) << "latency " << i * kDivideStep << ", cycle " << cycle;
+      ASSERT_EQ(unit.ratio_o[i], should.ratio) << "latency " << i * kDivideStep << ", cycle " << cycle;
+      ASSERT_EQ(unit.root_o[i], should.root) << "latency " << i * kDivideStep << ", cycle " << cycle;
+    }
     unit.clk_i = 1;
     unit.eval();
     if (!enable) entered.pop_front();
@@ -82,6 +89,8 @@ TEST(WideMutants, the_last_bits_of_a_difference_of_products_lost_are_caught) {
   expect_caught<VMutantWideDifferenceSticky>();
 }
 TEST(WideMutants, a_quotient_far_beyond_binary32_that_wraps_is_caught) { expect_caught<VMutantWideQuotientWraps>(); }
+TEST(WideMutants, the_last_bits_of_a_ratio_lost_are_caught) { expect_caught<VMutantWideRatioSticky>(); }
+TEST(WideMutants, the_last_bits_of_a_root_lost_are_caught) { expect_caught<VMutantWideRootSticky>(); }
 TEST(WideMutants, a_quotient_of_minus_zero_is_caught) { expect_caught<VMutantWideZeroSign>(); }
 
 }  // namespace

@@ -39,6 +39,20 @@ Wide wide(const Rational& x) {
   return (bits >> 52) << 24 | kHighestBit | (bits >> 29 & 0x7fffff);
 }
 
+/// A number that rounds as the root of |x| does: the root cut behind 60 bits, and half of its last place more if
+/// anything is cut off.
+Rational root_bounded(Wide x) {
+  if (x == 0) return 0;
+  const int exponent = exponent_of(x) - 23, odd = exponent & 1;
+  mpz_class radicand(significand_of(x)), root, rest;
+  radicand <<= static_cast<unsigned>(96 + odd);
+  mpz_sqrtrem(root.get_mpz_t(), rest.get_mpz_t(), radicand.get_mpz_t());
+  Rational value = rest == 0 ? Rational(root) : Rational(2 * root + 1, 2);
+  const int scale = (exponent - odd) / 2 - 48;
+  return scale >= 0 ? Rational(value << static_cast<unsigned>(scale))
+                    : Rational(value >> static_cast<unsigned>(-scale));
+}
+
 }  // namespace
 
 WideResults exact_results(const WideOperands& o) {
@@ -48,7 +62,10 @@ WideResults exact_results(const WideOperands& o) {
           .sum = wide(o.subtract ? Rational(a - b) : Rational(a + b)),
           .product = wide(product),
           .difference = wide(product - value(o.c) * value(o.d)),
-          .quotient = numeric::bits(oracle::quotient_binary32(a / b))};
+          .quotient = numeric::bits(oracle::quotient_binary32(a / b)),
+          .ratio = wide(a / b),
+          .root = wide(root_bounded(o.a)),
+          .narrowed = numeric::bits(oracle::quotient_binary32(a))};
 }
 
 std::string first_difference(const WideOperands& o, const WideResults& is, const WideResults& should) {
@@ -66,6 +83,9 @@ std::string first_difference(const WideOperands& o, const WideResults& is, const
   compare("product", is.product, should.product);
   compare("difference", is.difference, should.difference);
   compare("quotient", is.quotient, should.quotient);
+  compare("ratio", is.ratio, should.ratio);
+  compare("root", is.root, should.root);
+  compare("narrowed", is.narrowed, should.narrowed);
   return text.str();
 }
 

@@ -21,6 +21,8 @@ struct WideOperands {
 struct WideResults {
   Wide converted = 0, float_difference = 0, sum = 0, product = 0, difference = 0;
   std::uint32_t quotient = 0;
+  Wide ratio = 0, root = 0;  ///< a / b, and the root of |a|
+  std::uint32_t narrowed = 0;
 };
 
 /// Every rounding of an exact value by oracle::round24 and oracle::quotient_binary32.

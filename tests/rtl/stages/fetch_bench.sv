@@ -137,7 +137,6 @@ module fetch_bench #(
       .activity_o(activity_o[1]),
       .triangle_slot_i,
       .triangle_index_i,
-      .triangle_vertices_o,
-      .triangle_primitive_o
+      .triangle_o({triangle_primitive_o, triangle_vertices_o})
   );
 endmodule
