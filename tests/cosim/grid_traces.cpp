@@ -132,25 +132,9 @@ std::vector<Ray> rays_of(const std::string& trace, RaySource& source, int count)
   return rays;
 }
 
-/// Balls of all sizes up to a tenth of the mesh, a point among them.
-void add_spheres(scene::Mesh& mesh) {
-  constexpr int kSpheres = 120;
-  std::mt19937_64 random(oracle::test_seed() + 1);
-  const auto uniform = [&] { return static_cast<float>(random() >> 40) * 0x1p-24f; };
-  const accel::Bvh4 tree = accel::build(mesh, {});
-  const float size = tree.upper.x - tree.lower.x;
-  for (int i = 0; i < kSpheres; ++i) {
-    scene::Sphere sphere;
-    for (int axis = 0; axis < 3; ++axis)
-      sphere.centre[axis] = tree.lower[axis] + uniform() * (tree.upper[axis] - tree.lower[axis]);
-    sphere.radius = i == 0 ? 0 : 0.1f * size * uniform() * uniform();
-    mesh.spheres.push_back(sphere);
-  }
-}
-
 /// The mesh with the build's kinds of primitives, in leaves as large as it keeps where it culls within them.
 accel::Bvh4 tree_for(const RtlParameters& build, scene::Mesh& mesh) {
-  if (build.spheres) add_spheres(mesh);
+  if (build.spheres) test::add_spheres(mesh);
   if (!build.primitive_boxes) return accel::build(mesh, {});
   const auto bytes = static_cast<int>(accel::primitive_bytes({.primitive_boxes = true}));
   return accel::build(mesh, {.max_leaf_triangles = std::min(build.max_leaf_bytes / bytes, accel::kMaxLeafTriangles),

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <map>
 
+#include "model/accel/build.h"
 #include "model/base/error.h"
+#include "model/scene/load.h"
 #include "tests/oracle/seed.h"
 #include "tests/pipeline/world.h"
 
@@ -21,6 +23,7 @@ struct Case {
   Design design;
   cull::MaskOptions masks = {};
   std::uint32_t box_bits = accel::kFullBoxBits;
+  bool spheres = false, primitive_boxes = false;
 };
 constexpr cull::MaskOptions kCompressed{.entries = 64};
 constexpr Case kCases[] = {{Design::None},
@@ -40,18 +43,31 @@ constexpr Case kCases[] = {{Design::None},
                            {Design::None, {}, 8},
                            {Design::Projection, {}, 12},
                            {Design::BitTable, kCompressed, 16},
-                           {Design::Comparators, {.resolution = 6, .ray_resolution = 6}, 8}};
+                           {Design::Comparators, {.resolution = 6, .ray_resolution = 6}, 8},
+                           {.design = Design::None, .spheres = true},
+                           {.design = Design::Projection, .primitive_boxes = true},
+                           {.design = Design::None, .spheres = true, .primitive_boxes = true},
+                           {.design = Design::MaskLut, .box_bits = 16, .spheres = true, .primitive_boxes = true}};
 
 std::string name_of(const Case& c) {
   return std::string(cull::to_string(c.design)) + ", R " + std::to_string(c.masks.resolution) + ", R_ray " +
          std::to_string(c.masks.ray_resolution) + ", " + std::to_string(c.masks.entries) + " entries, " +
-         std::to_string(c.box_bits) + " bits";
+         std::to_string(c.box_bits) + " bits" + (c.spheres ? ", spheres" : "") +
+         (c.primitive_boxes ? ", primitive boxes" : "");
+}
+
+/// With primitive boxes leaves are as large as they get, so that there is something to cull in them.
+accel::Bvh4 tree_of(const Case& c) {
+  scene::Mesh mesh = scene::load("gen:hair-ball?strands=120").mesh;
+  if (c.spheres) add_spheres(mesh);
+  if (!c.primitive_boxes) return accel::build(mesh, {});
+  return accel::build(mesh, {.max_leaf_triangles = accel::kMaxLeafTriangles, .triangle_cost = 0.01f});
 }
 
 World& world_of(const Case& c) {
   static std::map<std::string, std::unique_ptr<World>> worlds;
   auto& world = worlds[name_of(c)];
-  if (!world) world = std::make_unique<World>("gen:hair-ball?strands=120", c.design, 200, c.masks, c.box_bits);
+  if (!world) world = std::make_unique<World>(tree_of(c), c.design, 200, c.masks, c.box_bits, c.primitive_boxes);
   return *world;
 }
 
@@ -93,6 +109,7 @@ std::vector<UnitConfig> timing_configs(const World& world) {
   set(18).result.interval = 40;
   set(19).memory.line_bytes = 64;
   set(19).unit.contexts = 7;
+  set(19).stack.spill_batch = set(22).stack.spill_batch = 4;  // 16 bytes an entry in lines of 64
   set(19).node_cache.bytes = 4096;
   set(19).scheduler.policy = pipeline::SchedulerPolicy::RoundRobin;
   set(20).table_cache.bytes = 16384;
@@ -102,6 +119,10 @@ std::vector<UnitConfig> timing_configs(const World& world) {
   set(22).table_cache = {.bytes = 2048, .ways = 4, .hit_latency = 1, .ports = 8, .mshrs = 64};
   set(22).memory.line_bytes = 64;
   set(22).mask_test.latency = 1;
+  set(22).primitive_cull = {.units = 4, .latency = 1};
+  set(22).sphere_test.latency = 1;
+  set(12).primitive_cull = {.units = 3, .latency = 40};
+  set(12).sphere_test.latency = 100;
   set(23).mask_test.ports = 2;
   set(23).mask_test.banks = 1;
   set(23).mask_test.rows = cull::TableRows::Folded;
@@ -153,6 +174,12 @@ TEST(Contract, the_events_of_each_ray_are_those_the_reference_recorded) {
       EXPECT_EQ(result.counts.node_visits, recorded.node_visits);
       EXPECT_EQ(result.counts.leaf_visits, recorded.leaf_visits);
       EXPECT_EQ(result.counts.triangle_tests, recorded.triangle_tests);
+      EXPECT_EQ(result.counts.boxed_out, recorded.boxed_out);
+      if (c.primitive_boxes) {
+        EXPECT_GT(counter(result, "primitive_cull.culled"), 500u);
+        EXPECT_GT(counter(result, "primitive_cull.emptied"), 20u);
+      }
+      if (c.spheres) EXPECT_GT(counter(result, "sphere_test.spheres"), 100u);
       EXPECT_EQ(result.counts.box_hits, recorded.box_hits);
       EXPECT_EQ(result.counts.culled, recorded.culled);
       EXPECT_EQ(result.counts.uncertain, recorded.uncertain);
@@ -296,7 +323,7 @@ TEST(Contract, rows_for_rays_from_outside_are_enough_for_those) {
     if (!cull::reads_tables(c.design)) continue;
     SCOPED_TRACE(name_of(c));
     World& world = world_of(c);
-    World outside(world.tree(), c.design, rays_from_outside(world), c.masks);
+    World outside(world.tree(), c.design, rays_from_outside(world), c.masks, c.box_bits, c.primitive_boxes);
     ASSERT_GT(outside.rays(), 50u);
     UnitConfig config = outside.config();
     const Outcome all = run(outside, config);

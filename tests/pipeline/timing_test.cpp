@@ -85,7 +85,10 @@ Cycle lonely_latency(const World& world, const UnitConfig& c, int triangles, boo
   time += hop + n(c.box_test.latency) + mask_time(world, c, miss) + hop + n(c.child_sort.latency);
   time += hop + 1;  // the stack forwards the nearest child
   time += scheduling + hop + fetch_time(c, c.leaf_cache, leaf_lines, miss);
+  if (image.layout.primitive_boxes)
+    time += hop + n((triangles + c.primitive_cull.units - 1) / c.primitive_cull.units - 1 + c.primitive_cull.latency);
   time += hop + n(triangles * c.triangle_test.interval - 1 + c.triangle_test.latency);
+  if (image.sphere_count != 0) time += hop + n(c.sphere_test.latency);
   time += hop + n(c.hit_update.latency);
   time += hop + 1;  // the stack finds nothing
   return time + hop;
@@ -104,6 +107,9 @@ std::vector<UnitConfig> single_ray_configs(const World& world) {
   configs[3].triangle_test.interval = 4;
   configs[3].triangle_test.latency = 90;
   configs[3].hit_update.latency = 1;
+  configs[3].primitive_cull = {.units = 4, .latency = 1};
+  configs[4].primitive_cull = {.units = 2, .latency = 17};
+  configs[4].sphere_test.latency = 1;
   configs[4].ray_setup = {.latency = 3, .interval = 17};
   configs[4].cell_locate.latency = 1;
   configs[4].comparators.latency = 31;
@@ -118,7 +124,10 @@ std::vector<UnitConfig> single_ray_configs(const World& world) {
   configs[7].memory.line_bytes = 64;
   configs[7].memory.interval = 23;
   configs[7].mask_test.second_latency = 8;
-  for (UnitConfig& config : configs) config.unit.contexts = 1;
+  for (UnitConfig& config : configs) {
+    config.unit.contexts = 1;
+    config.stack.spill_batch = 4;  // 16 bytes an entry in lines of 64
+  }
   return configs;
 }
 
@@ -135,11 +144,17 @@ TEST(Timing, a_lonely_ray_takes_exactly_the_sum_of_its_latencies_cold_and_warm) 
                                                         {Design::Projection, kCompressed},
                                                         {Design::Comparators, kCompressed}};
   for (const auto& [design, options] : cases)
-    for (const int triangles : {1, 5}) {
+    for (const int triangles : {1, 5, 7}) {
+      const bool spheres = triangles == 7, primitive_boxes = triangles != 1;
+      accel::Bvh4 tree = stacked_leaves(1, triangles);
+      if (spheres) {
+        tree.spheres = 2;
+        for (const std::uint32_t i : {0u, 6u}) tree.triangles[i] = accel::LeafTriangle::of({{1.5f, 1.5f, 2}, 0.75f}, i);
+      }
       // Two equal rays and one context: the second starts when the first is gone, with warm caches.
       const std::uint32_t box_bits = triangles == 1 ? accel::kFullBoxBits : 12;
-      World world(stacked_leaves(1, triangles), design, {ray_through_leaves(), ray_through_leaves()}, options,
-                  box_bits);
+      World world(tree, design, std::vector<intersect::Ray>(2, ray_through_leaves()), options, box_bits,
+                  primitive_boxes);
       int number = 0;
       for (const UnitConfig& config : single_ray_configs(world))
         for (const bool exec : {false, true}) {

@@ -66,6 +66,21 @@ std::shared_ptr<const cull::CompressionLut> compress_masks(const accel::Bvh4& tr
 
 }  // namespace
 
+void add_spheres(scene::Mesh& mesh) {
+  constexpr int kSpheres = 120;
+  const accel::Bvh4 tree = accel::build(mesh, {});
+  const float size = tree.upper.x - tree.lower.x;
+  Random random;
+  for (int i = 0; i < kSpheres; ++i) {
+    scene::Sphere sphere;
+    for (int axis = 0; axis < 3; ++axis)
+      sphere.centre[axis] = tree.lower[axis] + random.next() * (tree.upper[axis] - tree.lower[axis]);
+    const float share = random.next();
+    sphere.radius = i == 0 ? 0 : 0.1f * size * share * share;
+    mesh.spheres.push_back(sphere);
+  }
+}
+
 std::uint64_t VectorFeed::total_rays() const {
   std::uint64_t rays = 0;
   for (const auto& block : blocks_) rays += block->rays.size();
@@ -74,7 +89,11 @@ std::uint64_t VectorFeed::total_rays() const {
 
 World::World(const std::string& scene, cull::Design design, int rays, const cull::MaskOptions& options,
              std::uint32_t box_bits, bool primitive_boxes)
-    : World(accel::build(scene::load(scene).mesh, {}), design, {}, options, box_bits, primitive_boxes) {
+    : World(accel::build(scene::load(scene).mesh, {}), design, rays, options, box_bits, primitive_boxes) {}
+
+World::World(accel::Bvh4 tree, cull::Design design, int rays, const cull::MaskOptions& options, std::uint32_t box_bits,
+             bool primitive_boxes)
+    : World(std::move(tree), design, std::vector<intersect::Ray>(), options, box_bits, primitive_boxes) {
   record(lines_through(tree_, rays));
 }
 

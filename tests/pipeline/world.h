@@ -11,6 +11,7 @@
 #include "model/cull/mask_test.h"
 #include "model/pipeline/engine.h"
 #include "model/reference/ray_block.h"
+#include "model/scene/scene.h"
 
 namespace ctu::test {
 
@@ -32,6 +33,9 @@ class World {
   /// `rays` lines through the scene: three in four closest-hit, one in four any-hit, one in 50 invalid.
   /// `box_bits` of a coordinate of the nodes' boxes: 32, 16, 12 or 8; `primitive_boxes`: ray boxes cull in the leaves.
   World(const std::string& scene, cull::Design design, int rays, const cull::MaskOptions& options = {},
+        std::uint32_t box_bits = accel::kFullBoxBits, bool primitive_boxes = false);
+  /// The same of a tree that is there.
+  World(accel::Bvh4 tree, cull::Design design, int rays, const cull::MaskOptions& options = {},
         std::uint32_t box_bits = accel::kFullBoxBits, bool primitive_boxes = false);
   World(accel::Bvh4 tree, cull::Design design, const std::vector<intersect::Ray>& rays,
         const cull::MaskOptions& options = {}, std::uint32_t box_bits = accel::kFullBoxBits,
@@ -63,6 +67,9 @@ class World {
   std::vector<std::unique_ptr<VectorFeed>> feeds_;
   std::uint64_t rays_ = 0;
 };
+
+/// Adds balls of all sizes up to a tenth of the mesh, a point among them.
+void add_spheres(scene::Mesh& mesh);
 
 /// A root with `lanes` leaves, all at the same place, and `triangles` of one leaf: a ray along +z from below meets them
 /// all.

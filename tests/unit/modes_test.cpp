@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "model/accel/build.h"
+#include "model/scene/load.h"
 #include "model/unit/run.h"
 #include "tests/pipeline/world.h"
 
@@ -59,8 +61,11 @@ TEST(Modes, all_end_on_the_same_cycle_with_the_same_events_and_accounts) {
   for (const Design design :
        {Design::None, Design::MaskLut, Design::BitTable, Design::Dedup, Design::Projection, Design::Comparators}) {
     const std::uint32_t box_bits = design == Design::MaskLut ? 8 : design == Design::Comparators ? 12 : 32;
-    const World world("gen:hair-ball?strands=80", design, 150, {.entries = design == Design::BitTable ? 32 : 0},
-                      box_bits);
+    scene::Mesh mesh = scene::load("gen:hair-ball?strands=80").mesh;
+    const bool spheres = design == Design::Dedup, primitive_boxes = spheres || design == Design::None;
+    if (spheres) test::add_spheres(mesh);
+    const World world(accel::build(mesh, {.triangle_cost = primitive_boxes ? 0.01f : 1.0f}), design, 150,
+                      {.entries = design == Design::BitTable ? 32 : 0}, box_bits, primitive_boxes);
     for (const auto& config : configs_of(world))
       for (const auto source : {unit::Source::Replay, unit::Source::Exec})
         for (const std::uint64_t stall_seed : {0, 77}) {
