@@ -37,6 +37,7 @@ ordered_json counts_json(const reference::Counts& counts) {
   return ordered_json::array({
       item("traversal.node_visits", "box tests", counts.node_visits, "4-wide box tests; each counts one intersection"),
       item("traversal.triangle_tests", "triangle tests", counts.triangle_tests, "each counts one intersection"),
+      item("traversal.boxed_out", "triangle tests", counts.boxed_out, "saved by ray boxes in the leaves"),
       item("traversal.leaf_visits", "leaves", counts.leaf_visits, "leaves whose triangles were tested"),
       item("traversal.box_hits", "children", counts.box_hits, "children that the box test hit"),
       item("traversal.culled", "children", counts.culled, "box hits thrown away by the mask test"),

@@ -36,6 +36,10 @@ void print_summary(const RunRecord& r) {
                   ratio(double(counts.node_visits), double(counts.rays)),
                   ratio(double(counts.triangle_tests), double(counts.rays))));
   row("culled share", fmt::format("{:.2f} % of {} box hits", 100 * counts.culled_share(), counts.box_hits));
+  if (counts.boxed_out != 0)
+    row("saved by ray boxes",
+        fmt::format("{} primitive tests, {:.2f} % of those in the leaves visited", counts.boxed_out,
+                    percent(counts.boxed_out, counts.boxed_out + counts.triangle_tests)));
   if (r.engine != "rtl") row("passed as uncertain", fmt::format("{} box hits", counts.uncertain));
   if (r.timed()) {
     row("cycles", std::to_string(r.result.cycles));

@@ -14,7 +14,7 @@ namespace ctu::traces {
 static_assert(std::endian::native == std::endian::little, "trace files are little-endian and read in place");
 
 inline constexpr std::uint16_t kFormatMajor = 2;  ///< raised when old readers would misread a file
-inline constexpr std::uint16_t kFormatMinor = 2;  ///< raised when something is added that old readers may skip
+inline constexpr std::uint16_t kFormatMinor = 3;  ///< raised when something is added that old readers may skip
 
 inline constexpr std::uint32_t kSkippableMagic = 0x184D2A5C;
 inline constexpr std::size_t kSkippableHeaderBytes = 8;
