@@ -105,6 +105,7 @@ struct Parsed {
   AreaArgs area;
   PaperArgs paper, paper_raydist, paper_raybox;
   PaperPacketsArgs paper_packets;
+  PaperAllArgs paper_all;
   TraceArgs trace;
   UnitArgs config;
   bool config_plain = false;
@@ -301,7 +302,8 @@ void add_paper_raydist(CLI::App& paper, Parsed& parsed) {
   scene.size.clear();
   scene.spp = 0;
   scene.leaf_triangles = 2;
-  command->add_option("scene", scene.scenes, "scenes: names of the index, files or generated ones; none: all");
+  command->add_option("scene", scene.scenes,
+                      "scenes: names of the index, files or generated ones; none: one of each kind");
   add_index_option(*command, scene);
   command->add_flag("--quick", args.quick, "96x54 pixels instead of 240x135, fewer affine rays");
   command->add_option("--size", scene.size, "picture size in pixels, WxH");
@@ -319,7 +321,8 @@ void add_paper_packets(CLI::App& paper, Parsed& parsed) {
   SceneArgs& scene = args.scene;
   scene.rays = "all";
   scene.size = "1920x1080";
-  command->add_option("scene", scene.scenes, "scenes: names of the index, files or generated ones; none: all");
+  command->add_option("scene", scene.scenes,
+                      "scenes: names of the index, files or generated ones; none: one of each kind");
   add_index_option(*command, scene);
   command->add_option("--rays", scene.rays, "all, or one of primary, diffuse, shadow, ao and random")
       ->capture_default_str();
@@ -357,6 +360,28 @@ void add_paper_raybox(CLI::App& paper, Parsed& parsed) {
   command->callback([&] { parsed.exit_code = paper_raybox_command(args); });
 }
 
+/// Behind the others, whose defaults it takes.
+void add_paper_all(CLI::App& paper, Parsed& parsed) {
+  auto* command = paper.add_subcommand(
+      "all", "all four: subspace, ray-box and packet culling, and ray-distribution-aware trees, published beside ours");
+  PaperAllArgs& args = parsed.paper_all;
+  command->add_flag("--quick", args.quick, "the quick setting of each, and a quarter of the packets' rays");
+  command->add_option("--index", args.index,
+                      "list of scenes, NAME PATH on each line; without it build/scenes/index.txt if it is there");
+  command->add_option("--page", args.page,
+                      "Markdown page to write into as well, between <!-- begin: NAME --> and <!-- end: NAME -->, NAME "
+                      "being paper, raybox, packets and raydist");
+  command->add_option("--out", args.output, "folder for plots and their data")->capture_default_str();
+  command->add_option("--threads", args.threads, "0: one for each core")->capture_default_str();
+  command->callback([&] {
+    args.subspace = parsed.paper;
+    args.raybox = parsed.paper_raybox;
+    args.raydist = parsed.paper_raydist;
+    args.packets = parsed.paper_packets;
+    parsed.exit_code = paper_all_command(args);
+  });
+}
+
 void add_paper(CLI::App& app, Parsed& parsed) {
   auto* command =
       app.add_subcommand("paper", "the evaluation of a paper with our scenes, published values beside ours");
@@ -384,6 +409,7 @@ void add_paper(CLI::App& app, Parsed& parsed) {
   subspace->callback([&] { parsed.exit_code = paper_subspace_command(args); });
   add_paper_raydist(*command, parsed);
   add_paper_raybox(*command, parsed);
+  add_paper_all(*command, parsed);
 }
 
 void add_trace(CLI::App& app, Parsed& parsed) {

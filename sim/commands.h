@@ -155,6 +155,15 @@ struct PaperPacketsArgs {
   int least_rays = 4;  ///< at one place; fewer go on alone
 };
 
+struct PaperAllArgs {
+  PaperArgs subspace, raybox, raydist;  ///< their scenes and sizes are the defaults
+  PaperPacketsArgs packets;
+  bool quick = false;
+  std::string index, page;                ///< page: Markdown, with a marked section for each paper; empty: none
+  std::string output = "paper-subspace";  ///< folder
+  int threads = 0;                        ///< 0: one for each core
+};
+
 struct TraceArgs {
   std::string trace;
   std::string output;  ///< slice
@@ -198,6 +207,7 @@ int compression_command(const CompressionArgs& args);
 int heatmap_command(const HeatmapArgs& args);
 int tables_command(const TablesArgs& args);
 int area_command(const AreaArgs& args);
+int paper_all_command(PaperAllArgs args);
 int paper_packets_command(const PaperPacketsArgs& args);
 int paper_subspace_command(const PaperArgs& args);
 int paper_raydist_command(const PaperArgs& args);

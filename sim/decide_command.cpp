@@ -76,7 +76,7 @@ int decide_command(const DecideArgs& args) {
   bool held = true;
   print_header(args.markdown);
   for (const ListedScene& listed : listed_scenes(args.scene)) {
-    const std::optional<scene::Scene> scene = load_listed(args.scene, listed, Primitives::Triangles);
+    const std::optional<scene::Scene> scene = load_listed(args.scene, listed);
     if (!scene) continue;
     const traces::RecordedTree tree = traces::build_tree(*scene, options);
     const CullingDecision decision = decide_culling(*scene, tree, options, decision_options);

@@ -158,7 +158,7 @@ int precision_command(const PrecisionArgs& args) {
   bool sound = true;
   print_header(args.markdown);
   for (const ListedScene& listed : listed_scenes(args.scene)) {
-    const std::optional<scene::Scene> scene = load_listed(args.scene, listed, Primitives::Triangles);
+    const std::optional<scene::Scene> scene = load_listed(args.scene, listed);
     if (!scene) continue;
     Progress bar(listed.name, 0, "runs");
     scenes.push_back(

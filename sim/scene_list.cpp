@@ -69,6 +69,22 @@ std::vector<ListedScene> listed_scenes(const SceneArgs& args) {
   return wanted;
 }
 
+SceneArgs with_default_index(SceneArgs args) {
+  constexpr const char* kDefaultIndex = "build/scenes/index.txt";
+  if (args.index.empty() && std::filesystem::exists(kDefaultIndex)) args.index = kDefaultIndex;
+  return args;
+}
+
+SceneArgs with_default_scenes(SceneArgs args, const std::vector<std::string>& wanted) {
+  if (!args.scenes.empty()) return args;
+  const std::vector<ListedScene> listed = args.index.empty() ? std::vector<ListedScene>() : read_index(args.index);
+  for (const std::string& name : wanted)
+    if (name.rfind("gen:", 0) == 0 ||
+        std::any_of(listed.begin(), listed.end(), [&](const ListedScene& scene) { return scene.name == name; }))
+      args.scenes.push_back(name);
+  return args;
+}
+
 SceneArgs with_view(const SceneArgs& args, const ListedScene& listed) {
   SceneArgs viewed = args;
   if (!args.eye.empty() || !args.target.empty() || args.vertical_fov != 0) return viewed;
@@ -83,9 +99,8 @@ SceneArgs with_view(const SceneArgs& args, const ListedScene& listed) {
 
 void require_triangles(const scene::Scene& scene) {
   if (!scene.mesh.spheres.empty())
-    throw Error(scene.name,
-                fmt::format("has {} spheres, for which the timed unit has no test", scene.mesh.spheres.size()),
-                "name a scene of triangles; `ctusim culling` and `ctusim paper raybox` trace spheres");
+    throw Error(scene.name, fmt::format("has {} spheres, which this command does not take", scene.mesh.spheres.size()),
+                "name a scene of triangles");
 }
 
 std::optional<scene::Scene> load_listed(const SceneArgs& args, const ListedScene& listed, Primitives primitives) {

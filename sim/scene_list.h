@@ -22,10 +22,16 @@ struct ListedScene {
 /// Throws Error when neither names a scene and when the index cannot be read.
 std::vector<ListedScene> listed_scenes(const SceneArgs& args);
 
+/// `args` with the index of `./dev scenes`, build/scenes/index.txt, if it names none and that is there.
+SceneArgs with_default_index(SceneArgs args);
+
+/// `args` with `wanted` for its scenes if it names none: generated ones, and of the index those that it lists.
+SceneArgs with_default_scenes(SceneArgs args, const std::vector<std::string>& wanted);
+
 /// `args` with the view of a scene that has an inside worth seeing but no camera in its file, unless `args` has a view.
 SceneArgs with_view(const SceneArgs& args, const ListedScene& listed);
 
-/// What a command can trace: the timed unit and what checks it have no test for spheres.
+/// What a command can trace: some arithmetic is of triangles alone.
 enum class Primitives : std::uint8_t { All, Triangles };
 
 /// Throws Error, naming the scene, when it has spheres.

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md and docs/numerics.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper packets raybox variants compression precision tables designs area numerics raydist; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper packets raybox leaves variants compression precision tables designs area numerics raydist; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox variants compression precision tables designs area numerics raydist)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox leaves variants compression precision tables designs area numerics raydist)
 
 page=docs/results.md
 plots=docs/plots
@@ -82,9 +82,7 @@ compressed_variant() {  # LABEL SCENE OPTION...
 }
 
 packets() {
-  local scenes=(gen:hair-ball gen:curly-hair gen:straight-hair gen:tilted-quads gen:foliage gen:tetra) name
-  for name in bunny sponza kitchen; do if listed "$name"; then scenes+=("$name"); fi; done
-  keep packets "$program" paper packets --index "$index" --sample 2048 "${scenes[@]}"
+  keep packets "$program" paper packets --index "$index" --sample 2048
   put packets
 }
 
@@ -200,6 +198,38 @@ variants() {
   put variants
 }
 
+# One row: large leaves with and without a box beside every primitive, in the unit. Columns of `compare --markdown`: scene,
+# mask test, rays, intersections/ray, cycles/ray.
+leaf_row() {  # LABEL SCENE LEAF
+  local boxes
+  for boxes in "" --primitive-boxes; do
+    # shellcheck disable=SC2086
+    keep log "$program" record "$2" -o "$scratch/leaf.ctut" --size 240x135 --rays diffuse --leaf "$3" --triangle-cost 0.1 \
+      --designs mask-lut $boxes
+    keep rows "$program" compare "$scratch/leaf.ctut" --designs projection --markdown
+    tail -1 "$scratch/rows"
+  done | awk -F' *[|] *' -v label="$1" -v leaf="$3" '
+    NR == 1 { tests = $5; cycles = $6 }
+    NR == 2 { printf "| %s | %s | %.2f | %.2f | %.2f | %.2f | %+.1f %% |\n", label, leaf, tests, $5, cycles, $6, 100 * ($6 / cycles - 1) }'
+}
+
+leaves() {
+  local name path leaf
+  {
+    echo "| scene | primitives in a leaf, at most | intersections/ray | with ray boxes | cycles/ray | with ray boxes | change |"
+    echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"
+    for leaf in 4 8 15; do
+      leaf_row gen:balls gen:balls "$leaf"
+      leaf_row gen:hair-ball gen:hair-ball "$leaf"
+      for name in killeroo buddha sponza straight-hair kitchen; do
+        path=$(awk -v name="$name" '$1 == name { print $2 }' "$index")
+        [ -z "$path" ] || leaf_row "$name" "$(dirname "$index")/$path" "$leaf"
+      done
+    done
+  } >"$scratch/leaves"
+  put leaves
+}
+
 # One row: what decide says of all scenes for a unit, at a small size.
 unit() {  # LABEL OPTION...
   local label=$1
@@ -242,7 +272,6 @@ designs() {
     echo "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |"
     for scene in hair-ball curly-hair straight-hair tilted-quads foliage tetra; do walk "gen:$scene" "gen:$scene"; done
     while read -r name path; do
-      case $name in balls | killeroo) continue ;; esac  # spheres: the unit has no test for them
       walk "$name" "$(dirname "$index")/$path"
     done <"$index"
   } >"$scratch/designs"
@@ -333,17 +362,14 @@ numerics() {
 }
 
 raydist() {
-  local scenes=("gen:hair-ball?strands=500" "gen:curly-hair?strands=200" "gen:straight-hair?strands=500" gen:tilted-quads
-                gen:foliage gen:tetra) name
-  for name in bunny sponza; do if listed "$name"; then scenes+=("$name"); fi; done
-  keep raydist "$program" paper raydist --index "$index" "${scenes[@]}"
+  keep raydist "$program" paper raydist --index "$index"
   put raydist
 }
 
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | packets | raybox | variants | designs | tables | compression | precision | area | numerics | raydist) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, packets, raybox, variants, designs, tables, compression, precision, area, numerics or raydist" >&2; exit 2 ;;
+    culling | auto | paper | packets | raybox | leaves | variants | designs | tables | compression | precision | area | numerics | raydist) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, packets, raybox, leaves, variants, designs, tables, compression, precision, area, numerics or raydist" >&2; exit 2 ;;
   esac
 done
 exit "$failed"

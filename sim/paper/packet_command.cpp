@@ -1,6 +1,5 @@
 // `ctusim paper packets`: what every packet culling method finds in our scenes, beside what there is to find.
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -19,7 +18,10 @@
 namespace ctu::sim {
 namespace {
 
-constexpr const char* kDefaultIndex = "build/scenes/index.txt";  // where ./dev scenes puts it
+/// One of each kind: packets are asked about one by one in exact arithmetic.
+const std::vector<std::string> kScenes = {
+    "gen:hair-ball", "gen:curly-hair", "gen:straight-hair", "gen:tilted-quads", "gen:foliage", "gen:tetra", "bunny",
+    "sponza",        "kitchen"};
 
 reference::Forming forming_named(const std::string& name) {
   if (const auto forming = reference::forming_from_string(name)) return *forming;
@@ -82,17 +84,10 @@ void add_to_sweep(const scene::Scene& scene, const accel::Bvh4& bvh, const RaySa
     }
 }
 
-/// The arguments with their defaults filled in.
-SceneArgs with_defaults(const PaperPacketsArgs& args) {
-  SceneArgs scene = args.scene;
-  if (scene.index.empty() && std::filesystem::exists(kDefaultIndex)) scene.index = kDefaultIndex;
-  return scene;
-}
-
 }  // namespace
 
 int paper_packets_command(const PaperPacketsArgs& args) {
-  const SceneArgs scene_args = with_defaults(args);
+  const SceneArgs scene_args = with_default_scenes(with_default_index(args.scene), kScenes);
   paper::PacketMeasureOptions measure;
   measure.forming = {.size = args.size, .window = args.window, .forming = forming_named(args.forming)};
   check(measure.forming);

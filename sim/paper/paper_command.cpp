@@ -20,14 +20,12 @@ namespace ctu::sim {
 namespace {
 
 constexpr const char* kReport = "subspace.md";
-constexpr const char* kDefaultIndex = "build/scenes/index.txt";  // where ./dev scenes puts it
 
 /// The paper's 960 x 540 and 16 samples, or a small setting, and the unpacked scenes, unless the user says otherwise.
 SceneArgs with_picture(const PaperArgs& args) {
-  SceneArgs scene = args.scene;
+  SceneArgs scene = with_default_index(args.scene);
   scene.rays = "diffuse";
   if (scene.size.empty()) scene.size = args.quick ? "160x90" : "960x540";
-  if (scene.index.empty() && std::filesystem::exists(kDefaultIndex)) scene.index = kDefaultIndex;
   if (scene.spp == 0) scene.spp = args.quick ? 1 : 16;
   return scene;
 }

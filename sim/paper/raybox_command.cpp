@@ -1,6 +1,5 @@
 // `ctusim paper raybox`: the evaluation of "Ray-Box Culling for Tree Structures" on its scenes, as far as they are at
 // hand, the published values beside ours.
-#include <filesystem>
 #include <optional>
 
 #include <fmt/format.h>
@@ -15,8 +14,6 @@
 
 namespace ctu::sim {
 namespace {
-
-constexpr const char* kDefaultIndex = "build/scenes/index.txt";  // where ./dev scenes puts it
 
 /// What Table 1 says of a scene, and which of ours stands for it.
 struct PaperScene {
@@ -74,8 +71,7 @@ std::string describe(const PaperArgs& args, int threads) {
 }  // namespace
 
 int paper_raybox_command(const PaperArgs& args) {
-  SceneArgs scene_args = args.scene;
-  if (scene_args.index.empty() && std::filesystem::exists(kDefaultIndex)) scene_args.index = kDefaultIndex;
+  SceneArgs scene_args = with_default_index(args.scene);
   if (scene_args.scenes.empty() && scene_args.index.empty()) scene_args.scenes = {"gen:balls"};
   const int threads = record_options(scene_args).threads;
   std::vector<ListedScene> all = listed_scenes(scene_args);

@@ -1,6 +1,5 @@
 // `ctusim paper raydist`: the evaluation of the ray-distribution paper with our scenes, the published values beside it.
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -14,14 +13,21 @@
 namespace ctu::sim {
 namespace {
 
-constexpr const char* kDefaultIndex = "build/scenes/index.txt";  // where ./dev scenes puts it
-constexpr int kBins = 40;                                        // the paper's
+constexpr int kBins = 40;  // the paper's
+/// One of each kind, small: four trees and more are built for each of eight lights.
+const std::vector<std::string> kScenes = {"gen:hair-ball?strands=500",
+                                          "gen:curly-hair?strands=200",
+                                          "gen:straight-hair?strands=500",
+                                          "gen:tilted-quads",
+                                          "gen:foliage",
+                                          "gen:tetra",
+                                          "bunny",
+                                          "sponza"};
 
 SceneArgs with_picture(const PaperArgs& args) {
-  SceneArgs scene = args.scene;
+  SceneArgs scene = with_default_scenes(with_default_index(args.scene), kScenes);
   scene.rays = "shadow";
   if (scene.size.empty()) scene.size = args.quick ? "96x54" : "240x135";
-  if (scene.index.empty() && std::filesystem::exists(kDefaultIndex)) scene.index = kDefaultIndex;
   if (scene.spp == 0) scene.spp = args.quick ? 1 : 4;
   return scene;
 }

@@ -260,6 +260,38 @@ TEST_F(CommandTest, boxes_of_fewer_bits_give_the_same_hits_with_every_design_and
   EXPECT_EQ(table.exit_code, 0) << table.err;
 }
 
+TEST_F(CommandTest, ray_boxes_save_tests_of_triangles_and_spheres_and_change_no_hit) {
+  const std::string scene = "record gen:balls --size 24x24 --leaf 15 --triangle-cost 0.05 -o ";
+  ASSERT_EQ(ctusim(scene + "plain.ctut").exit_code, 0);
+  const Outcome recorded = ctusim(scene + "boxed.ctut --primitive-boxes");
+  ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+  EXPECT_EQ(recorded.out.find("changed:"), std::string::npos) << recorded.out;
+  const std::string info = ctusim("trace info boxed.ctut").out;
+  EXPECT_NE(info.find("primitive boxes"), std::string::npos);
+  EXPECT_NE(info.find("spheres"), std::string::npos);
+  for (const std::string design : {"none", "projection"}) {
+    std::map<std::string, json> results;
+    for (const std::string run :
+         {"plain.ctut", "boxed.ctut", "boxed.ctut --source exec", "boxed.ctut --engine reference"}) {
+      const Outcome outcome = ctusim("run " + run + " --json r.json --set mask_test.design=" + design);
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+      EXPECT_EQ(outcome.out.find("saved by ray boxes") != std::string::npos, run != "plain.ctut") << run;
+      results[run] = json::parse(read_text(file("r.json")));
+      EXPECT_EQ(results[run]["wrong_hits"], 0);
+    }
+    const json& replay = results["boxed.ctut"];
+    EXPECT_EQ(replay["event_log_hash"], results["boxed.ctut --source exec"]["event_log_hash"]) << design;
+    const auto tests = [](const json& run) { return counter(run, "traversal.triangle_tests"); };
+    const std::uint64_t saved = counter(replay, "traversal.boxed_out");
+    EXPECT_GT(saved, tests(replay) / 2) << design;
+    EXPECT_EQ(tests(results["plain.ctut"]), tests(replay) + saved) << design;
+    EXPECT_EQ(counter(replay, "primitive_cull.culled"), saved);
+    EXPECT_EQ(counter(results["boxed.ctut --engine reference"], "traversal.boxed_out"), saved);
+  }
+  expect_refused("run boxed.ctut --set stack.spill_batch=16", "16-byte entries");
+  expect_refused("run boxed.ctut --set primitive_cull.units=5", "primitive_cull.units");
+}
+
 TEST_F(CommandTest, nodes_whose_masks_are_full_take_no_bytes_for_them_and_change_no_work) {
   const std::string scene = "record 'gen:hair-ball?strands=200&seed=7' --size 32x32 --compress 16 -o ";
   ASSERT_EQ(ctusim(scene + "whole.ctut").exit_code, 0);
@@ -326,6 +358,7 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   for (const std::string engine : {"reference", "rtl"})
     expect_refused("run hair.ctut --waves w.vcd --window 0:9 --engine " + engine, "--waves: engine " + engine);
   expect_refused("record nowhere.obj -o x.ctut", "nowhere.obj");
+  expect_refused("paper all --quick --page nowhere.md", "nowhere.md");
   expect_refused("record gen:hair-bal -o x.ctut", "hair-ball");
   expect_refused("record gen:hair-ball -o x.ctut --size big", "--size");
   expect_refused("record gen:hair-ball -o x.ctut --r 9", "--r");
