@@ -43,7 +43,10 @@ std::string name_of(Value value, const std::vector<std::pair<std::string, Value>
 
 /// The untimed traversal over the same rays: every hit checked, everything counted.
 pipeline::UnitResult run_reference(const LoadedTrace& trace, const cull::MaskTester& tester, traces::RayRange range) {
-  const reference::Traversal traversal(trace.bvh(), &trace.masks(), tester);
+  std::vector<accel::PrimitiveBox> boxes;
+  if (trace.reader().has_primitive_boxes()) boxes = reference::leaf_boxes(trace.bvh());
+  const reference::Traversal traversal(trace.bvh(), &trace.masks(), tester, boxes.empty() ? nullptr : &boxes,
+                                       cull::RayBoxRule::OncePerLeaf);
   traces::TraceFeed feed(trace.reader(), range);
   pipeline::UnitResult result;
   constexpr std::size_t kListedWrongHits = 16;

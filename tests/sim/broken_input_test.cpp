@@ -131,7 +131,7 @@ std::vector<Case> scene_files() {
        "WorldBegin\nShape \"loopsubdiv\" \"point P\" [0 0 0 1 0 0 0 1 0 0 0 1 0 0 2] "
        "\"integer indices\" [0 1 2 0 1 3 0 1 4]\n",
        "culling fin.pbrt", "fin.pbrt:2", "more than two triangles of the control mesh share edge 0 1"},
-      {"ball.nff", "s 0 0 0 1\n", "record ball.nff -o x.ctut", "ball", "for which the timed unit has no test"},
+      {"ball.nff", "s 0 0 0 1\n", "metamorph ball.nff", "ball", "which this command does not take"},
       {"other.list", "other.list\n", "record other.list -o x.ctut", "other.list", "'.list' is no scene format we know"},
       {"cut.obj.zst", binary(0xFD2FB528u), "record cut.obj.zst -o x.ctut", "cut.obj.zst: byte 4",
        "ends inside a zstd frame"},

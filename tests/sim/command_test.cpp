@@ -17,6 +17,13 @@ using ctu::test::write_text;
 using nlohmann::json;
 
 /// One small recorded trace for all tests of this program.
+long counter(const json& result, const std::string& name) {
+  for (const json& entry : result["counters"])
+    if (entry["name"] == name) return entry["value"].get<long>();
+  ADD_FAILURE() << "no counter " << name;
+  return 0;
+}
+
 class CommandTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -189,12 +196,6 @@ TEST_F(CommandTest, a_trace_of_compressed_masks_says_so_and_loses_no_hit) {
 
 TEST_F(CommandTest, designs_that_read_tables_visit_the_same_over_compressed_masks_on_chip_and_cached) {
   ASSERT_EQ(ctusim("record 'gen:hair-ball?strands=200&seed=7' -o packed.ctut --size 32x32 --compress 64").exit_code, 0);
-  const auto counter = [](const json& result, const std::string& name) {
-    for (const json& entry : result["counters"])
-      if (entry["name"] == name) return entry["value"].get<long>();
-    ADD_FAILURE() << "no counter " << name;
-    return 0L;
-  };
   std::map<std::string, long> visits;
   for (const std::string design : {"mask-lut", "bit-table", "dedup", "projection"})
     for (const std::string tables : {"", "--set mask_test.rows=folded", "--set table_cache.bytes=4096"}) {
@@ -282,7 +283,7 @@ TEST_F(CommandTest, ray_boxes_save_tests_of_triangles_and_spheres_and_change_no_
     const json& replay = results["boxed.ctut"];
     EXPECT_EQ(replay["event_log_hash"], results["boxed.ctut --source exec"]["event_log_hash"]) << design;
     const auto tests = [](const json& run) { return counter(run, "traversal.triangle_tests"); };
-    const std::uint64_t saved = counter(replay, "traversal.boxed_out");
+    const long saved = counter(replay, "traversal.boxed_out");
     EXPECT_GT(saved, tests(replay) / 2) << design;
     EXPECT_EQ(tests(results["plain.ctut"]), tests(replay) + saved) << design;
     EXPECT_EQ(counter(replay, "primitive_cull.culled"), saved);
