@@ -138,6 +138,17 @@ void add_record(CLI::App& app, Parsed& parsed) {
       ->add_option("--triangle-align", parsed.record.triangle_alignment_bytes,
                    "bytes that a triangle starts at a multiple of")
       ->capture_default_str();
+  command
+      ->add_option("--packets", parsed.record.packets, "rays that enter the tree together, 4 to 64; 0: every ray alone")
+      ->capture_default_str();
+  command->add_option("--packet-entries", parsed.record.packet_entries,
+                      "places where a packet's rays go on alone, at most; 1 to 16 [4]");
+  command->add_option(
+      "--packet-forming", parsed.record.packet_forming,
+      "which rays travel together: in the order in which they come, or those of a window by direction or "
+      "origin [order]");
+  command->add_option("--packet-window", parsed.record.packet_window,
+                      "consecutive rays that packets are formed from [1024]");
   command->callback([&] { parsed.exit_code = record_command(parsed.record); });
 }
 

@@ -46,7 +46,7 @@ void gather(const std::uint8_t* __restrict from, std::size_t elements, std::uint
 }  // namespace
 
 std::string to_string(Per per) {
-  static constexpr const char* kNames[] = {"ray", "step", "key", "word", ""};
+  static constexpr const char* kNames[] = {"ray", "step", "key", "word", "packet", "visit", "entry", ""};
   return kNames[static_cast<int>(per)];
 }
 
@@ -83,7 +83,7 @@ Section hits_section() {
            {"primitive", "u32", Per::Ray, "", "triangle's id in the scene; 4294967295: no hit"}}};
 }
 
-Section steps_section(const std::string& design, bool with_keys) {
+Section steps_section(const std::string& design, bool with_keys, bool in_packets) {
   Section section{"steps." + design,
                   {{"steps", "u32", Per::Ray, "steps", "visits of the ray"},
                    {"tail_dropped", "u8", Per::Ray, "entries", "stack entries dropped after the last visit"},
@@ -93,7 +93,20 @@ Section steps_section(const std::string& design, bool with_keys) {
                    {"detail", "u16", Per::Step, "", "node: visiting order | uncertain << 8; leaf: new best hits"}}};
   if (with_keys)
     section.columns.push_back({"key", "u32", Per::Key, "", "begin and end cells of each lane the box test hit"});
+  if (in_packets)
+    section.columns.push_back(
+        {"spared", "u16", Per::Ray, "nodes", "above the packet's entries; visited by the ray alone"});
   return section;
+}
+
+Section packets_section() {
+  return {"packets",
+          {{"rays", "u8", Per::Packet, "rays", "consecutive rays of the packet"},
+           {"visits", "u16", Per::Packet, "nodes", "nodes that the packet was asked about"},
+           {"entries", "u8", Per::Packet, "nodes", "places where its rays go on alone"},
+           {"node", "u32", Per::Visit, "", "node, as in the image's child references"},
+           {"hit", "u8", Per::Visit, "", "bit lane: some ray may meet the child"},
+           {"entry", "u32", Per::Entry, "", "node, nearest first"}}};
 }
 
 Section compression_section() {

@@ -12,7 +12,7 @@
 namespace ctu::traces {
 
 /// What one element of a column belongs to: columns of the same unit have equally many elements in a block.
-enum class Per : std::uint8_t { Ray, Step, Key, Word, Unknown };
+enum class Per : std::uint8_t { Ray, Step, Key, Word, Packet, Visit, Entry, Unknown };
 
 struct Column {
   std::string name;
@@ -35,7 +35,8 @@ std::size_t type_bytes(const std::string& type);
 Section image_section();
 Section rays_section();
 Section hits_section();
-Section steps_section(const std::string& design, bool with_keys);
+Section steps_section(const std::string& design, bool with_keys, bool in_packets = false);
+Section packets_section();      ///< only where rays travel in packets
 Section compression_section();  ///< only where masks are compressed
 
 /// One column of one block, compressed.

@@ -42,6 +42,8 @@ struct StepList {
   std::vector<std::uint8_t> tail_dropped;  ///< entries dropped after a ray's last visit, until its stack was empty
   std::vector<Step> steps;
   std::vector<std::uint32_t> keys;
+  /// Of rays in packets only: nodes above the packet's entries that the ray visits when it walks alone.
+  std::vector<std::uint16_t> spared;
 
   std::uint64_t rays() const { return tail_dropped.size(); }
   void clear() { *this = StepList{}; }

@@ -26,8 +26,12 @@ struct StackEntryWithExit : StackEntry {
   float t1;
 };
 
-// Step::dropped counts in 8 bits, so no ray may ever hold more entries than that.
-constexpr int kMaxStackEntries = std::numeric_limits<std::uint8_t>::max();
+/// A finished ray is one more in the list.
+void close_ray(StepList& steps, std::uint8_t tail_dropped) {
+  steps.tail_dropped.push_back(tail_dropped);
+  steps.first_step.push_back(steps.steps.size());
+  steps.first_key.push_back(steps.keys.size());
+}
 
 /// One ray on its way through the tree. `kRecord` decides once whether the event sequence is written, `kSpheres`
 /// whether a leaf may hold spheres, `kRayBox` whether ray boxes cull its primitives.
@@ -47,9 +51,12 @@ class Walk {
     best_ = known != nullptr ? *known : intersect::Hit{ray.tmax, 0, 0, intersect::kNoPrimitive};
   }
 
-  intersect::Hit run() {
+  /// From the root, or from a packet's entries.
+  intersect::Hit run(const EntryList* entries) {
     if (!ray_.valid) return best_;
-    push(0, ray_.ray.tmin, ray_.ray.tmax);
+    if (entries == nullptr) push(0, ray_.ray.tmin, ray_.ray.tmax);
+    for (int i = entries == nullptr ? 0 : entries->count(); i-- > 0;)
+      push((*entries)[i].ref, (*entries)[i].t0, ray_.ray.tmax);
     Entry at;
     while (pop(at)) {
       if (accel::is_leaf(at.ref)) {
@@ -154,10 +161,10 @@ struct Outcome {
 
 template <bool kRecord>
 Outcome walk(const NodeTest& test_node, const std::vector<accel::PrimitiveBox>* leaf_boxes, const intersect::Ray& ray,
-             StepList* steps, const intersect::Hit* known) {
+             StepList* steps, const intersect::Hit* known, const EntryList* entries = nullptr) {
   const auto run = [&](auto spheres, auto ray_box) {
     Walk<kRecord, spheres(), ray_box()> walk(test_node, ray_box() ? leaf_boxes->data() : nullptr, ray, steps, known);
-    const intersect::Hit hit = walk.run();
+    const intersect::Hit hit = walk.run(entries);
     return Outcome{hit, walk.dropped(), walk.box_counts()};
   };
   const bool spheres = test_node.bvh().spheres != 0;
@@ -192,10 +199,13 @@ intersect::Hit Traversal::trace(const intersect::Ray& ray, StepList* steps, cons
   const Outcome outcome = steps == nullptr ? walk<false>(test_node_, leaf_boxes_, ray, nullptr, known)
                                            : walk<true>(test_node_, leaf_boxes_, ray, steps, known);
   if (box_counts != nullptr) *box_counts += outcome.box_counts;
-  if (steps == nullptr) return outcome.hit;
-  steps->tail_dropped.push_back(outcome.dropped);
-  steps->first_step.push_back(steps->steps.size());
-  steps->first_key.push_back(steps->keys.size());
+  if (steps != nullptr) close_ray(*steps, outcome.dropped);
+  return outcome.hit;
+}
+
+intersect::Hit Traversal::trace_from(const EntryList& entries, const intersect::Ray& ray, StepList& steps) const {
+  const Outcome outcome = walk<true>(test_node_, leaf_boxes_, ray, &steps, nullptr, &entries);
+  close_ray(steps, outcome.dropped);
   return outcome.hit;
 }
 

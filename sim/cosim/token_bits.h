@@ -23,6 +23,21 @@ inline TokenBits bits_of(const pipeline::SlotToken& token, const TokenWidths& wi
   BitWriter(bits.data()).put(token.slot, widths.slot);
   return bits;
 }
+inline TokenBits bits_of(const pipeline::JoinToken& token, const TokenWidths& widths) {
+  TokenBits bits{};
+  BitWriter(bits.data()).put(token.closes, 1).put(token.joins, 1).put(token.slot, widths.slot);
+  return bits;
+}
+inline TokenBits bits_of(const pipeline::StartToken& token, const TokenWidths& widths) {
+  TokenBits bits{};
+  BitWriter(bits.data()).put(token.last, 1).put(token.packet, 6).put(token.slot, widths.slot);
+  return bits;
+}
+inline TokenBits bits_of(const pipeline::PacketToken& token, const TokenWidths&) {
+  TokenBits bits{};
+  BitWriter(bits.data()).put(token.packet, 6);
+  return bits;
+}
 /// Of nodes and leaves alike.
 template <class Token>
 requires requires(Token token) { token.ref; }
