@@ -108,6 +108,16 @@ struct PrecisionArgs {
   bool markdown = false;
 };
 
+struct PacketsArgs {
+  SceneArgs scene;  ///< `rays` also "all"
+  UnitArgs unit;
+  std::string sizes = "8,16,32,64", entries = "1,2,4,8,16";
+  std::string forming = "order";
+  int window = 1024;           ///< consecutive rays that packets are formed from
+  std::uint64_t rays = 40000;  ///< sampled, about so many; 0: all
+  bool markdown = false;
+};
+
 struct CompressionArgs {
   SceneArgs scene;
   bool ideas = false;  ///< rows for ideas that did not become a selection
@@ -195,6 +205,7 @@ int culling_command(const CullingArgs& args);
 int metamorph_command(const MetamorphArgs& args);
 int decide_command(const DecideArgs& args);
 int precision_command(const PrecisionArgs& args);
+int packets_command(const PacketsArgs& args);
 int compression_command(const CompressionArgs& args);
 int heatmap_command(const HeatmapArgs& args);
 int tables_command(const TablesArgs& args);

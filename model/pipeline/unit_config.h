@@ -53,7 +53,7 @@ struct UnitConfig {
     int interval = 3;
   } ray_setup;
   struct {
-    int packets = 4;
+    int packets = 8;
     int latency = 12;
     int interval = 4;
   } packet_cull;  ///< only where rays travel in packets

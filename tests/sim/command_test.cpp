@@ -349,6 +349,25 @@ TEST_F(CommandTest, rays_in_packets_find_the_same_hits_with_every_engine_and_sou
   EXPECT_EQ(ctusim("run part.ctut").exit_code, 0);
 }
 
+TEST_F(CommandTest, a_survey_of_packets_has_a_row_for_the_rays_alone_and_one_for_each_size_and_number_of_entries) {
+  const Outcome table = ctusim(
+      "packets 'gen:tilted-quads?quads=200' --size 24x24 --rays primary --packets 4,16 --packet-entries 1,3 "
+      "--markdown");
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.out.find("128 contexts, 8 packets under way, mask test projection; packets by order"),
+            std::string::npos)
+      << table.out;
+  std::size_t rows = 0;
+  for (std::size_t at = table.out.find("| primary |"); at != std::string::npos;
+       at = table.out.find("| primary |", at + 1))
+    ++rows;
+  EXPECT_EQ(rows, 5u) << table.out;
+  for (const char* cells : {"| primary | - | - |", "| primary | 4 | 1 |", "| primary | 16 | 3 |"})
+    EXPECT_NE(table.out.find(cells), std::string::npos) << cells << table.out;
+  const Outcome few = ctusim("packets gen:tetra --size 8x8 --rays all --packets 8 --packet-entries 2 --sample 200");
+  EXPECT_EQ(few.exit_code, 0) << few.err;
+}
+
 TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("run missing.ctut", "missing.ctut");
   expect_refused("run hair.ctut --set mask_test.desing=none", "mask_test.design");
@@ -407,6 +426,11 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("record gen:hair-ball -o x.ctut --packets 8 --packet-window 7", "packet window");
   expect_refused("record gen:hair-ball -o x.ctut --packets 8 --culling auto", "--packets");
   expect_refused("record gen:hair-ball -o x.ctut --packet-entries 2", "--packets");
+  expect_refused("packets gen:hair-ball --packets 8,", "--packets");
+  expect_refused("packets gen:hair-ball --packets 2", "packet size");
+  expect_refused("packets gen:hair-ball --packet-entries 17", "packet entries");
+  expect_refused("packets gen:hair-ball --packet-forming size", "--packet-forming");
+  expect_refused("packets gen:hair-ball --packets 64 --set unit.contexts=63", "more than the unit's 63 contexts");
   expect_refused("record gen:hair-ball -o x.ctut --culling off --strip-full", "--strip-full");
   expect_refused("record gen:hair-ball -o x.ctut --culling maybe", "--culling");
   expect_refused("record gen:hair-ball -o x.ctut --culling off --designs none,mask-lut", "--designs");
