@@ -99,6 +99,7 @@ struct Parsed {
   MetamorphArgs metamorph;
   DecideArgs decide;
   PrecisionArgs precision;
+  PacketsArgs packets;
   CompressionArgs compression;
   HeatmapArgs heatmap;
   TablesArgs tables;
@@ -141,6 +142,17 @@ void add_record(CLI::App& app, Parsed& parsed) {
       ->add_option("--triangle-align", parsed.record.triangle_alignment_bytes,
                    "bytes that a triangle starts at a multiple of")
       ->capture_default_str();
+  command
+      ->add_option("--packets", parsed.record.packets, "rays that enter the tree together, 4 to 64; 0: every ray alone")
+      ->capture_default_str();
+  command->add_option("--packet-entries", parsed.record.packet_entries,
+                      "places where a packet's rays go on alone, at most; 1 to 16 [4]");
+  command->add_option(
+      "--packet-forming", parsed.record.packet_forming,
+      "which rays travel together: in the order in which they come, or those of a window by direction or "
+      "origin [order]");
+  command->add_option("--packet-window", parsed.record.packet_window,
+                      "consecutive rays that packets are formed from [1024]");
   command->callback([&] { parsed.exit_code = record_command(parsed.record); });
 }
 
@@ -231,6 +243,26 @@ void add_precision(CLI::App& app, Parsed& parsed) {
   command->add_option("--out", args.output, "folder for the plot and its data");
   command->add_flag("--markdown", args.markdown, "print the rows of a Markdown table");
   command->callback([&] { parsed.exit_code = precision_command(parsed.precision); });
+}
+
+void add_packets(CLI::App& app, Parsed& parsed) {
+  auto* command =
+      app.add_subcommand("packets", "what rays in packets save or cost in the unit, beside the same rays alone");
+  PacketsArgs& args = parsed.packets;
+  add_scene_options(*command, args.scene, true);
+  add_config_options(*command, args.unit);
+  command->add_option("--packets", args.sizes, "list of rays of a packet, 4 to 64")->capture_default_str();
+  command->add_option("--packet-entries", args.entries, "list of places where a packet's rays go on alone, at most")
+      ->capture_default_str();
+  command->add_option("--packet-forming", args.forming, "order, direction or origin: how the window is sorted")
+      ->capture_default_str();
+  command->add_option("--packet-window", args.window, "consecutive rays that packets are formed from")
+      ->capture_default_str();
+  command->add_option("--sample", args.rays, "rays that are simulated of each kind, about; 0: all")
+      ->check(at_least(0))
+      ->capture_default_str();
+  command->add_flag("--markdown", args.markdown, "print the rows of a Markdown table");
+  command->callback([&] { parsed.exit_code = packets_command(parsed.packets); });
 }
 
 void add_compression(CLI::App& app, Parsed& parsed) {
@@ -516,6 +548,7 @@ int run_cli(int argc, const char* const* argv) {
   add_metamorph(app, parsed);
   add_decide(app, parsed);
   add_precision(app, parsed);
+  add_packets(app, parsed);
   add_compression(app, parsed);
   add_heatmap(app, parsed);
   add_tables(app, parsed);

@@ -52,8 +52,11 @@ struct RecordArgs {
   UnitArgs unit;               ///< that auto decides for: its configuration
   bool strip_full = false;     ///< nodes whose masks are all full carry none
   std::uint32_t node_alignment_bytes = 4, triangle_alignment_bytes = 4;
-  std::uint32_t box_bits = 32;  ///< of a coordinate of a node's boxes
+  std::uint32_t box_bits = 32;                       ///< of a coordinate of a node's boxes
   bool primitive_boxes = false;
+  int packets = 0;                                   ///< rays of a packet; 0: rays travel alone
+  std::optional<int> packet_entries, packet_window;  ///< none: as RayPackets has it
+  std::string packet_forming;                        ///< empty: as they come
 };
 
 struct RunArgs {
@@ -103,6 +106,16 @@ struct PrecisionArgs {
   std::string box_bits = "32,16,12,8";
   std::uint64_t rays = 20000;  ///< sampled, about so many; 0: all
   std::string output;          ///< folder for the plot and its data; empty: none
+  bool markdown = false;
+};
+
+struct PacketsArgs {
+  SceneArgs scene;  ///< `rays` also "all"
+  UnitArgs unit;
+  std::string sizes = "8,16,32,64", entries = "1,2,4,8,16";
+  std::string forming = "order";
+  int window = 1024;           ///< consecutive rays that packets are formed from
+  std::uint64_t rays = 40000;  ///< sampled, about so many; 0: all
   bool markdown = false;
 };
 
@@ -203,6 +216,7 @@ int culling_command(const CullingArgs& args);
 int metamorph_command(const MetamorphArgs& args);
 int decide_command(const DecideArgs& args);
 int precision_command(const PrecisionArgs& args);
+int packets_command(const PacketsArgs& args);
 int compression_command(const CompressionArgs& args);
 int heatmap_command(const HeatmapArgs& args);
 int tables_command(const TablesArgs& args);

@@ -107,7 +107,7 @@ SampleRun simulate_sample(const RecordedTree& tree, bool with_masks, const RaySa
   layout.bare_nodes = tree.bare_nodes;
   const cull::MaskTester tester(unit.mask_test.design, recorded.masks, with_masks ? tree.masks.lut : nullptr);
   const accel::Image image = traces::image_of(tree.bvh, with_masks ? &tree.masks : nullptr, layout);
-  SampleFeed feed(sample, tree.bvh, &tree.masks.masks, tester);
+  SampleFeed feed(sample, tree.bvh, &tree.masks.masks, tester, recorded.packets.plan);
   return {pipeline::run_to_end(*pipeline::make_engine(unit, {image, tester, feed}, {})), image.node_stride_bytes,
           image.bytes.size()};
 }

@@ -34,7 +34,8 @@ struct SampleRun {
   double cycles_per_ray() const;
 };
 
-/// The unit's run over the sample, on the image of this tree with its masks; without culling when not `with_masks`.
+/// The unit's run over the sample, on the image of this tree with its masks; without culling when not `with_masks`. The
+/// rays travel as recorded.packets has it, in the sample's order.
 SampleRun simulate_sample(const traces::RecordedTree& tree, bool with_masks, const RaySample& sample,
                           const traces::RecordOptions& recorded, const pipeline::UnitConfig& config);
 

@@ -77,8 +77,8 @@ RaySample sample_rays(const traces::RayGenerator& generator, const reference::Tr
 }
 
 SampleFeed::SampleFeed(const RaySample& sample, const accel::Bvh4& bvh, const cull::ObjectMasks* masks,
-                       const cull::MaskTester& tester)
-    : sample_(sample), traversal_(bvh, masks, tester) {}
+                       const cull::MaskTester& tester, const reference::PacketPlan& packets)
+    : sample_(sample), bvh_(bvh), packets_(packets), traversal_(bvh, masks, tester) {}
 
 std::shared_ptr<const reference::RayBlock> SampleFeed::next() {
   if (next_ray_ == sample_.rays.size()) return nullptr;
@@ -88,7 +88,13 @@ std::shared_ptr<const reference::RayBlock> SampleFeed::next() {
   for (; next_ray_ < last; ++next_ray_) {
     block->rays.push_back(sample_.rays[next_ray_]);
     block->expected.push_back(sample_.hits[next_ray_]);
-    traversal_.trace(sample_.rays[next_ray_], &block->steps);
+    if (!packets_.any()) traversal_.trace(sample_.rays[next_ray_], &block->steps);
+  }
+  if (packets_.any()) {
+    const auto rays = static_cast<std::uint32_t>(block->rays.size());
+    const reference::PacketWalk walk(bvh_, packets_, block->rays, reference::cut_packets(rays, packets_.size));
+    walk.trace(traversal_, block->steps);
+    block->packets = walk.list();
   }
   return block;
 }

@@ -9,6 +9,7 @@
 #include "model/accel/bvh4.h"
 #include "model/cull/mask_test.h"
 #include "model/cull/object_masks.h"
+#include "model/reference/packet_walk.h"
 #include "model/reference/ray_block.h"
 #include "model/reference/traversal.h"
 #include "traces/ray_generator.h"
@@ -34,17 +35,21 @@ struct SampleOptions {
 RaySample sample_rays(const traces::RayGenerator& generator, const reference::Traversal& without_culling,
                       const SampleOptions& options, int threads);
 
-/// The sample with the steps of one design, walked block by block as they are asked for. All must outlive the feed;
+/// The sample with the steps of one design, walked block by block as they are asked for: by its rays alone, or from the
+/// entries of packets of consecutive rays. All must outlive the feed;
 /// `masks` may be null for Design::None.
 class SampleFeed : public reference::RayFeed {
  public:
   SampleFeed(const RaySample& sample, const accel::Bvh4& bvh, const cull::ObjectMasks* masks,
-             const cull::MaskTester& tester);
+             const cull::MaskTester& tester, const reference::PacketPlan& packets = {});
   std::shared_ptr<const reference::RayBlock> next() override;
   std::uint64_t total_rays() const override { return sample_.rays.size(); }
+  reference::PacketPlan packets() const override { return packets_; }
 
  private:
   const RaySample& sample_;
+  const accel::Bvh4& bvh_;
+  reference::PacketPlan packets_;
   reference::Traversal traversal_;
   std::size_t next_ray_ = 0;
 };

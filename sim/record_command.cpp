@@ -1,7 +1,10 @@
 // `ctusim record` and `ctusim trace`: making traces and looking into them.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "model/base/error.h"
+#include "model/reference/packet_walk.h"
 #include "sim/commands.h"
 #include "sim/config_file.h"
 #include "sim/culling_decision.h"
@@ -14,6 +17,8 @@
 
 namespace ctu::sim {
 namespace {
+
+constexpr int kPacketEntries = 4;  // where nobody says otherwise
 
 void print_designs(const std::vector<traces::DesignCounts>& designs) {
   double base = 0;
@@ -60,11 +65,47 @@ void print_step(const reference::Step& step, const accel::Bvh4& bvh) {
              step.dropped != 0 ? fmt::format(" after {} dropped", step.dropped) : "", order);
 }
 
+/// What a packet visited, before its first ray's steps.
+void print_packet(const reference::RayBlock& block, std::size_t ray) {
+  const reference::PacketList& list = block.packets;
+  const std::uint64_t p = list.packet_of(ray);
+  if (list.first_ray[p] != ray) return;
+  fmt::print("  packet of {} rays\n", list.first_ray[p + 1] - list.first_ray[p]);
+  for (std::uint64_t i = list.first_visit[p]; i < list.first_visit[p + 1]; ++i)
+    fmt::print("    node  {:<9} some meet {:04b}\n", list.visits[i].node, list.visits[i].hit);
+  for (std::uint64_t i = list.first_entry[p]; i < list.first_entry[p + 1]; ++i)
+    fmt::print("    entry {}\n", list.entries[i]);
+}
+
 /// The first design whose steps the trace holds.
 std::optional<cull::Design> stored_design(const traces::Manifest& manifest) {
   for (const auto& row : manifest.designs)
     if (row.stored) return row.design;
   return std::nullopt;
+}
+
+/// How the rays travel.
+traces::RayPackets packets_of(const RecordArgs& args) {
+  traces::RayPackets packets;
+  if (args.packets == 0) {
+    const bool says_how = args.packet_entries || args.packet_window || !args.packet_forming.empty();
+    if (says_how) throw Error("--packet-*", "there are no packets", "add --packets RAYS, or leave it out");
+    return packets;
+  }
+  if (args.culling == "auto")
+    throw Error("--packets", "--culling auto foretells rays that travel alone", "give --culling on or off");
+  packets.plan = {args.packets, args.packet_entries.value_or(kPacketEntries)};
+  packets.window = args.packet_window.value_or(std::max(packets.window, args.packets));
+  if (!args.packet_forming.empty()) {
+    const auto forming = reference::forming_from_string(args.packet_forming);
+    if (!forming)
+      throw Error("--packet-forming", fmt::format("\"{}\" is no way to form packets", args.packet_forming),
+                  "give order, direction or origin");
+    packets.forming = *forming;
+  }
+  reference::check(packets.plan);
+  reference::check(packets.how());
+  return packets;
 }
 
 /// What `record` has beside the options of every scene.
@@ -99,6 +140,7 @@ traces::RecordOptions recorder_options(const RecordArgs& args) {
   check_alignment("--triangle-align", args.triangle_alignment_bytes);
   options.layout.node_alignment_bytes = args.node_alignment_bytes;
   options.layout.triangle_alignment_bytes = args.triangle_alignment_bytes;
+  options.packets = packets_of(args);
   require_box_bits(args.box_bits);
   options.layout.box_bits = args.box_bits;
   options.layout.primitive_boxes = args.primitive_boxes;
@@ -148,6 +190,10 @@ int record_command(const RecordArgs& args) {
   fmt::print("{}: {} triangles, {} nodes, {:.1f} MB image; {} rays, {:.1f} MB, hash {}\n", args.output,
              summary.triangles, summary.nodes, double(summary.image_bytes) / 1e6, summary.rays,
              double(summary.file_bytes) / 1e6, summary.hash);
+  if (summary.packets != 0)
+    fmt::print("{} packets, {:.2f} nodes visited and {:.2f} entries each\n", summary.packets,
+               double(summary.packet_visits) / double(summary.packets),
+               double(summary.packet_entries) / double(summary.packets));
   if (summary.bare_nodes != 0)
     fmt::print("{} nodes carry no masks, because all of theirs are full\n", summary.bare_nodes);
   if (summary.compression_entries != 0)
@@ -171,6 +217,9 @@ int trace_info_command(const TraceArgs& args) {
   row("rays", fmt::format("{} {} in {} blocks; {}x{} pixels, {} samples, seed {}", reader.rays(),
                           traces::to_string(m.rays.kind), reader.blocks(), m.rays.width, m.rays.height,
                           m.rays.samples_per_pixel, m.rays.seed));
+  if (m.packets.any())
+    row("packets", fmt::format("of {} rays, up to {} entries; rays of a window of {} by {}", m.packets.plan.size,
+                               m.packets.plan.most_entries, m.packets.window, reference::to_string(m.packets.forming)));
   row("masks", describe_masks(reader));
   if (!m.culling.choice.empty()) print_culling(m.culling);
   if (const std::uint32_t bare = m.image.shape.layout.bare_nodes; bare != 0)
@@ -209,6 +258,7 @@ int trace_head_command(const TraceArgs& args) {
                  hit.primitive == intersect::kNoPrimitive
                      ? "miss"
                      : fmt::format("primitive {} at t {} u {} v {}", hit.primitive, hit.t, hit.u, hit.v));
+      if (block->packets.packets() != 0) print_packet(*block, i);
       for (auto s = block->steps.first_step[i]; s < block->steps.first_step[i + 1]; ++s)
         print_step(block->steps.steps[s], trace.bvh());
     }

@@ -6,6 +6,7 @@
 
 #include "model/base/error.h"
 #include "model/base/nearest.h"
+#include "model/reference/packet_walk.h"
 #include "model/reference/traversal.h"
 #include "sim/config_file.h"
 #include "sim/progress.h"
@@ -52,8 +53,12 @@ pipeline::UnitResult run_reference(const LoadedTrace& trace, const cull::MaskTes
   constexpr std::size_t kListedWrongHits = 16;
   while (const auto block = feed.next()) {
     reference::StepList steps;
+    std::vector<intersect::Hit> in_packets;
+    if (feed.packets().any())
+      in_packets =
+          reference::PacketWalk(trace.bvh(), feed.packets(), block->rays, block->packets).trace(traversal, steps);
     for (std::size_t i = 0; i < block->rays.size(); ++i) {
-      const intersect::Hit hit = traversal.trace(block->rays[i], &steps);
+      const intersect::Hit hit = in_packets.empty() ? traversal.trace(block->rays[i], &steps) : in_packets[i];
       ++result.rays;
       if (same_bits(hit, block->expected[i])) continue;
       ++result.wrong_hits;

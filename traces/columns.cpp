@@ -46,7 +46,7 @@ void gather(const std::uint8_t* __restrict from, std::size_t elements, std::uint
 }  // namespace
 
 std::string to_string(Per per) {
-  static constexpr const char* kNames[] = {"ray", "step", "key", "leaf", "word", ""};
+  static constexpr const char* kNames[] = {"ray", "step", "key", "leaf", "word", "packet", "visit", "entry", ""};
   return kNames[static_cast<int>(per)];
 }
 
@@ -83,7 +83,7 @@ Section hits_section() {
            {"primitive", "u32", Per::Ray, "", "triangle's id in the scene; 4294967295: no hit"}}};
 }
 
-Section steps_section(const std::string& design, bool with_keys, bool with_met) {
+Section steps_section(const std::string& design, const StepColumns& has) {
   Section section{"steps." + design,
                   {{"steps", "u32", Per::Ray, "steps", "visits of the ray"},
                    {"tail_dropped", "u8", Per::Ray, "entries", "stack entries dropped after the last visit"},
@@ -91,11 +91,24 @@ Section steps_section(const std::string& design, bool with_keys, bool with_met) 
                    {"dropped", "u8", Per::Step, "entries", "stack entries dropped before this visit"},
                    {"lanes", "u8", Per::Step, "", "node: box hits | survivors << 4; leaf: triangles tested"},
                    {"detail", "u16", Per::Step, "", "node: visiting order | uncertain << 8; leaf: new best hits"}}};
-  if (with_keys)
+  if (has.keys)
     section.columns.push_back({"key", "u32", Per::Key, "", "begin and end cells of each lane the box test hit"});
-  if (with_met)
+  if (has.met)
     section.columns.push_back({"met", "u16", Per::Leaf, "", "primitives whose boxes the ray's box meets, bit by bit"});
+  if (has.spared)
+    section.columns.push_back(
+        {"spared", "u16", Per::Ray, "nodes", "above the packet's entries; visited by the ray alone"});
   return section;
+}
+
+Section packets_section() {
+  return {"packets",
+          {{"rays", "u8", Per::Packet, "rays", "consecutive rays of the packet"},
+           {"visits", "u16", Per::Packet, "nodes", "nodes that the packet was asked about"},
+           {"entries", "u8", Per::Packet, "nodes", "places where its rays go on alone"},
+           {"node", "u32", Per::Visit, "", "node, as in the image's child references"},
+           {"hit", "u8", Per::Visit, "", "bit lane: some ray may meet the child"},
+           {"entry", "u32", Per::Entry, "", "node, nearest first"}}};
 }
 
 Section compression_section() {

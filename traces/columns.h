@@ -12,7 +12,7 @@
 namespace ctu::traces {
 
 /// What one element of a column belongs to: columns of the same unit have equally many elements in a block.
-enum class Per : std::uint8_t { Ray, Step, Key, Leaf, Word, Unknown };
+enum class Per : std::uint8_t { Ray, Step, Key, Leaf, Word, Packet, Visit, Entry, Unknown };
 
 struct Column {
   std::string name;
@@ -35,8 +35,14 @@ std::size_t type_bytes(const std::string& type);
 Section image_section();
 Section rays_section();
 Section hits_section();
-/// With keys for designs that read tables, with what ray boxes meet where the image has primitive_boxes.
-Section steps_section(const std::string& design, bool with_keys, bool with_met);
+/// What steps have beside those of every trace.
+struct StepColumns {
+  bool keys = false;    ///< of designs that read tables
+  bool met = false;     ///< where the image has primitive_boxes: what ray boxes meet
+  bool spared = false;  ///< where rays travel in packets
+};
+Section steps_section(const std::string& design, const StepColumns& has);
+Section packets_section();      ///< only where rays travel in packets
 Section compression_section();  ///< only where masks are compressed
 
 /// One column of one block, compressed.

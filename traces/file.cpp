@@ -77,8 +77,9 @@ void check_index(const InputFile& file, const FileLayout& layout, const FileFoot
 
 }  // namespace
 
-FileHeader make_header() {
+FileHeader make_header(std::uint16_t minor) {
   FileHeader header;
+  header.minor = minor;
   std::memcpy(header.magic, kHeaderMagic, sizeof header.magic);
   header.checksum = checksum_of(header);
   return header;

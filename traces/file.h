@@ -14,7 +14,9 @@ namespace ctu::traces {
 static_assert(std::endian::native == std::endian::little, "trace files are little-endian and read in place");
 
 inline constexpr std::uint16_t kFormatMajor = 2;  ///< raised when old readers would misread a file
-inline constexpr std::uint16_t kFormatMinor = 3;  ///< raised when something is added that old readers may skip
+inline constexpr std::uint16_t kFormatMinor = 2;  ///< raised when something is added that old readers may skip
+/// Of files whose rays travel in packets, or whose image has spheres or primitive boxes; no others differ.
+inline constexpr std::uint16_t kFormatMinorOfExtensions = 3;
 
 inline constexpr std::uint32_t kSkippableMagic = 0x184D2A5C;
 inline constexpr std::size_t kSkippableHeaderBytes = 8;
@@ -56,7 +58,7 @@ struct IndexEntry {
 };
 static_assert(sizeof(IndexEntry) == 32);
 
-FileHeader make_header();
+FileHeader make_header(std::uint16_t minor = kFormatMinor);
 void seal(FileFooter& footer);  ///< fills in magic and checksum
 
 /// An open file, read at places; const reads may come from many threads.

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/base/error.h"
+#include "model/reference/entry_list.h"
 #include "traces/file.h"
 
 namespace ctu::traces {
@@ -61,6 +62,13 @@ Json to_json_value(const RayOptions& rays) {
                {"ao_radius", rays.ao_radius}};
   if (rays.light) json["light"] = to_json_value(*rays.light);
   return json;
+}
+
+Json to_json_value(const RayPackets& packets) {
+  return {{"rays", packets.plan.size},
+          {"most_entries", packets.plan.most_entries},
+          {"forming", reference::to_string(packets.forming)},
+          {"window", packets.window}};
 }
 
 Json to_json_value(const accel::BuildOptions& build) {
@@ -306,6 +314,17 @@ void read(const Reader& from, RayOptions& to) {
   if (from.has("light")) from.get("light", to.light.emplace());
 }
 
+void read(const Reader& from, RayPackets& to) {
+  from.get("rays", to.plan.size, reference::kLeastPacket, reference::kMostPacket);
+  from.get("most_entries", to.plan.most_entries, 1, reference::kMostEntries);
+  from.get("window", to.window, 1);
+  std::string name;
+  from.get("forming", name);
+  const auto forming = reference::forming_from_string(name);
+  if (!forming) from.fail(fmt::format("\"forming\" names no way to form packets: {}", name));
+  to.forming = *forming;
+}
+
 void read(const Reader& from, accel::BuildOptions& to) {
   from.get("max_leaf_triangles", to.max_leaf_triangles, 1, accel::kMaxLeafTriangles);
   from.get("bins", to.bins, 2);
@@ -401,7 +420,8 @@ void read(const Reader& from, Section& to) {
     item.get("description", column.description);
     std::string per;
     item.get("per", per);
-    for (const Per known : {Per::Ray, Per::Step, Per::Key, Per::Leaf, Per::Word})
+    for (const Per known :
+         {Per::Ray, Per::Step, Per::Key, Per::Leaf, Per::Word, Per::Packet, Per::Visit, Per::Entry})
       if (to_string(known) == per) column.per = known;
   });
 }
@@ -412,6 +432,7 @@ Manifest read_manifest(const Json& json, const std::string& path) {
   from.get("tool", to.tool);
   read(from.object("scene"), to.scene);
   read(from.object("rays"), to.rays);
+  if (from.has("packets")) read(from.object("packets"), to.packets);
   read(from.object("build"), to.build);
   read(from.object("masks"), to.masks);
   if (from.has("culling")) read(from.object("culling"), to.culling);
@@ -441,9 +462,14 @@ const DesignCounts* Manifest::find(cull::Design design) const {
   return nullptr;
 }
 
+std::uint16_t Manifest::format_minor() const {
+  const bool extended = packets.any() || image.shape.sphere_count != 0 || image.shape.layout.primitive_boxes;
+  return extended ? kFormatMinorOfExtensions : kFormatMinor;
+}
+
 std::string to_json(const Manifest& manifest) {
   Json json = {{"format", "ctut"},
-               {"version", Json::array({kFormatMajor, kFormatMinor})},
+               {"version", Json::array({kFormatMajor, manifest.format_minor()})},
                {"tool", manifest.tool},
                {"scene", to_json_value(manifest.scene)},
                {"rays", to_json_value(manifest.rays)},
@@ -453,6 +479,7 @@ std::string to_json(const Manifest& manifest) {
                {"ray_count", manifest.ray_count},
                {"designs", to_json_list(manifest.designs)},
                {"differences", to_json_list(manifest.differences)}};
+  if (manifest.packets.any()) json["packets"] = to_json_value(manifest.packets);
   if (!manifest.culling.choice.empty()) json["culling"] = to_json_value(manifest.culling);
   if (!manifest.cut_from.empty()) {
     json["cut_from"] = manifest.cut_from;
@@ -471,11 +498,12 @@ Manifest manifest_from_json(const std::string& text, const std::string& path) {
 }
 
 std::string identity_text(const Manifest& manifest) {
-  const Json json = {{"format", kFormatMajor},
-                     {"scene", manifest.scene.hash},
-                     {"build", to_json_value(manifest.build)},
-                     {"masks", to_json_value(manifest.masks)},
-                     {"image", to_json_value(manifest.image)}};
+  Json json = {{"format", kFormatMajor},
+               {"scene", manifest.scene.hash},
+               {"build", to_json_value(manifest.build)},
+               {"masks", to_json_value(manifest.masks)},
+               {"image", to_json_value(manifest.image)}};
+  if (manifest.packets.any()) json["packets"] = to_json_value(manifest.packets);
   return json.dump();
 }
 

@@ -14,6 +14,7 @@
 #include "traces/columns.h"
 #include "traces/culling_choice.h"
 #include "traces/ray_options.h"
+#include "traces/ray_packets.h"
 
 namespace ctu::traces {
 
@@ -53,6 +54,7 @@ struct Manifest {
   std::string tool;  ///< name and version of the program that wrote the file
   SceneInfo scene;
   RayOptions rays;
+  RayPackets packets;
   accel::BuildOptions build;
   cull::MaskOptions masks;
   CullingChoice culling;  ///< how it was decided which nodes carry masks; of no effect on what the trace is
@@ -65,6 +67,8 @@ struct Manifest {
   std::vector<Section> sections;
 
   const DesignCounts* find(cull::Design design) const;
+  /// Minor version of the file: the least that has all that is in it.
+  std::uint16_t format_minor() const;
 };
 
 std::string to_json(const Manifest& manifest);

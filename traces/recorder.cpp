@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include "model/base/parallel.h"
 #include "model/cull/mask_test.h"
 #include "model/cull/object_masks.h"
+#include "model/reference/packet_walk.h"
 #include "model/reference/traversal.h"
 #include "traces/mask_set.h"
 #include "traces/ray_generator.h"
@@ -70,6 +72,7 @@ Manifest make_manifest(const scene::Scene& scene, const RecordOptions& options) 
   manifest.scene.camera = scene.camera;
   manifest.scene.report = scene.report;
   manifest.rays = options.rays;
+  manifest.packets = options.packets;
   manifest.build = options.build;
   manifest.masks = options.masks;
   for (const auto& [design, stored] : designs_of(options)) manifest.designs.push_back({design, stored, {}, 0});
@@ -81,15 +84,30 @@ struct Outcome {
   EncodedBlock block;
   std::vector<DesignCounts> designs;
   std::vector<Difference> differences;  ///< rays counted from the block's first
+  std::uint64_t packets = 0, packet_visits = 0, packet_entries = 0;
 };
+
+/// The elements in another order.
+template <class T>
+std::vector<T> reordered(const std::vector<T>& all, const std::vector<std::uint32_t>& order) {
+  std::vector<T> out;
+  out.reserve(order.size());
+  for (const std::uint32_t i : order) out.push_back(all[i]);
+  return out;
+}
 
 /// Traces blocks of paths on any thread.
 class BlockTracer {
  public:
   /// `expected`: without any culling. `ray_boxes`: the cullers have them.
   BlockTracer(const RayGenerator& generator, const std::vector<std::unique_ptr<Culler>>& cullers,
-              const reference::Traversal& expected, bool ray_boxes)
-      : generator_(generator), cullers_(cullers), expected_(expected), ray_boxes_(ray_boxes) {}
+              const reference::Traversal& expected, const accel::Bvh4& bvh, const RayPackets& packets, bool ray_boxes)
+      : generator_(generator),
+        cullers_(cullers),
+        expected_(expected),
+        bvh_(bvh),
+        packets_(packets),
+        ray_boxes_(ray_boxes) {}
 
   Outcome trace(std::uint64_t first, std::uint64_t last, BlockEncoder& encoder) const {
     std::vector<intersect::Ray> rays;
@@ -97,18 +115,31 @@ class BlockTracer {
     std::vector<StepList> steps(cullers_.size());
     StepList* without_culling = nullptr;  // filled on the way, as that walk gives the expected hits
     for (std::size_t i = 0; i < cullers_.size(); ++i)
-      if (!culls(*cullers_[i])) without_culling = &steps[i];
+      if (!culls(*cullers_[i]) && !packets_.any()) without_culling = &steps[i];
     const auto closest = [&](const intersect::Ray& ray, bool recorded) {
       return expected_.trace(ray, recorded ? without_culling : nullptr);
     };
     generator_.generate(first, last, closest, rays, hits);
 
     Outcome outcome;
+    std::optional<reference::PacketWalk> packets;
+    if (packets_.any()) {
+      const std::vector<std::uint32_t> order = reference::packet_order(rays, packets_.how());
+      rays = reordered(rays, order), hits = reordered(hits, order);
+      packets.emplace(bvh_, packets_.plan, rays,
+                      reference::cut_packets(static_cast<std::uint32_t>(rays.size()), packets_.plan.size));
+      outcome.packets = packets->list().packets();
+      outcome.packet_visits = packets->list().visits.size();
+      outcome.packet_entries = packets->list().entries.size();
+    }
     std::vector<StepList> stored;
     for (std::size_t i = 0; i < cullers_.size(); ++i) {
       const Culler& culler = *cullers_[i];
       DesignCounts counts{culler.design, culler.stored, {}, 0};
-      if (culls(culler)) compare(culler, rays, hits, steps[i], counts, outcome.differences);
+      if (packets)
+        compare(culler.design, hits, packets->trace(culler.traversal, steps[i]), counts, outcome.differences);
+      else if (culls(culler))
+        compare(culler.design, hits, trace_alone(culler, rays, steps[i]), counts, outcome.differences);
       counts.counts = reference::count_steps(steps[i], 0, steps[i].rays());
       outcome.designs.push_back(counts);
       if (culler.stored)
@@ -116,27 +147,36 @@ class BlockTracer {
       else
         steps[i] = {};
     }
-    outcome.block = encoder.encode(rays, hits, stored);
+    outcome.block = packets ? encoder.encode(rays, hits, stored, packets->list()) : encoder.encode(rays, hits, stored);
     return outcome;
   }
 
  private:
   bool culls(const Culler& culler) const { return culler.design != Design::None || ray_boxes_; }
 
-  static void compare(const Culler& culler, const std::vector<intersect::Ray>& rays,
-                      const std::vector<intersect::Hit>& expected, StepList& steps, DesignCounts& counts,
+  static std::vector<intersect::Hit> trace_alone(const Culler& culler, const std::vector<intersect::Ray>& rays,
+                                                 StepList& steps) {
+    std::vector<intersect::Hit> hits;
+    hits.reserve(rays.size());
+    for (const intersect::Ray& ray : rays) hits.push_back(culler.traversal.trace(ray, &steps));
+    return hits;
+  }
+
+  static void compare(Design design, const std::vector<intersect::Hit>& expected,
+                      const std::vector<intersect::Hit>& hits, DesignCounts& counts,
                       std::vector<Difference>& differences) {
-    for (std::size_t ray = 0; ray < rays.size(); ++ray) {
-      const intersect::Hit hit = culler.traversal.trace(rays[ray], &steps);
-      if (same_bits(hit, expected[ray])) continue;
+    for (std::size_t ray = 0; ray < hits.size(); ++ray) {
+      if (same_bits(hits[ray], expected[ray])) continue;
       ++counts.different_hits;
-      differences.push_back({culler.design, ray, expected[ray], hit});
+      differences.push_back({design, ray, expected[ray], hits[ray]});
     }
   }
 
   const RayGenerator& generator_;
   const std::vector<std::unique_ptr<Culler>>& cullers_;
   const reference::Traversal& expected_;
+  const accel::Bvh4& bvh_;
+  const RayPackets& packets_;
   bool ray_boxes_;
 };
 
@@ -160,6 +200,9 @@ class OrderedSink {
         difference.ray += summary_.rays;
         summary_.differences.push_back(difference);
       }
+      summary_.packets += outcome.packets;
+      summary_.packet_visits += outcome.packet_visits;
+      summary_.packet_entries += outcome.packet_entries;
       writer_.add(outcome.block);
       summary_.rays += outcome.block.rays;
       progress();
@@ -193,6 +236,10 @@ class OrderedSink {
 
 void check_options(const RecordOptions& options) {
   check(options.rays);
+  if (options.packets.any()) {
+    reference::check(options.packets.plan);
+    reference::check(options.packets.how());
+  }
   if (options.rays_per_block < 1 || options.rays_per_block > kMaxRaysPerBlock)
     throw Error("record", fmt::format("rays_per_block is {}", options.rays_per_block),
                 fmt::format("give 1 to {}", kMaxRaysPerBlock));
@@ -269,7 +316,7 @@ RecordSummary record(const scene::Scene& scene, const RecordOptions& options, co
   for (const DesignCounts& entry : manifest.designs)
     cullers.push_back(std::make_unique<Culler>(entry.design, entry.stored, options.masks, tree,
                                                layout.primitive_boxes ? &leaf_boxes : nullptr));
-  const BlockTracer tracer(generator, cullers, expected, layout.primitive_boxes);
+  const BlockTracer tracer(generator, cullers, expected, tree.bvh, options.packets, layout.primitive_boxes);
 
   OrderedSink sink(*writer, summary);
   const std::uint64_t paths_per_block = std::max(1u, options.rays_per_block / generator.max_rays_per_path());

@@ -14,11 +14,13 @@
 #include "traces/manifest.h"
 #include "traces/mask_set.h"
 #include "traces/ray_options.h"
+#include "traces/ray_packets.h"
 
 namespace ctu::traces {
 
 struct RecordOptions {
   RayOptions rays;
+  RayPackets packets;
   accel::BuildOptions build;
   cull::MaskOptions masks;
   bool with_masks = true;   ///< false: nodes carry none, and the only design is None
@@ -57,7 +59,8 @@ struct RecordSummary {
   std::uint32_t nodes = 0, triangles = 0;
   std::uint32_t node_stride_bytes = 0;
   std::uint32_t bare_nodes = 0;
-  int compression_entries = 0;  ///< 0: masks are not compressed
+  int compression_entries = 0;                                       ///< 0: masks are not compressed
+  std::uint64_t packets = 0, packet_visits = 0, packet_entries = 0;  ///< zero where rays travel alone
   double build_seconds = 0, mask_seconds = 0, compression_seconds = 0, trace_seconds = 0;
   std::vector<DesignCounts> designs;    ///< stored ones first
   std::vector<Difference> differences;  ///< the first kMaxListedDifferences; all are counted in `designs`

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "model/base/error.h"
 #include "traces/trace_reader.h"
 #include "traces/trace_writer.h"
@@ -49,10 +51,14 @@ std::string slice(const std::string& in, const std::string& out, RayRange range)
     std::vector<reference::StepList> steps;
     const auto read = [&](std::optional<cull::Design> design) {
       const reference::RayBlock block = reader.read_block(number, design);
-      validate_block(block, bvh, manifest.masks, in);
+      validate_block(block, bvh, manifest.masks, in, manifest.packets.plan);
       return part_of(block, ray - start, last - start);
     };
     part = read(std::nullopt);
+    if (manifest.packets.any() && !part.packets.walked())
+      throw Error(in, fmt::format("rays {} to {} cut a packet in two", range.first, range.last - 1),
+                  fmt::format("begin and end with a packet; those of a block have {} rays, but for its last one",
+                              manifest.packets.plan.size));
     for (DesignCounts& entry : designs) {
       steps.push_back(read(entry.design).steps);
       entry.counts += reference::count_steps(steps.back(), 0, steps.back().rays());

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "model/base/error.h"
+#include "model/reference/packet_walk.h"
 #include "traces/validate_block.h"
 
 namespace ctu::traces {
@@ -30,6 +31,20 @@ std::vector<std::uint64_t> rebased(const std::vector<std::uint64_t>& starts, std
   return out;
 }
 
+reference::PacketList part_of(const reference::PacketList& all, std::uint64_t first, std::uint64_t last) {
+  reference::PacketList part;
+  for (const std::uint32_t border : all.first_ray)
+    if (border > first && border < last) part.first_ray.push_back(static_cast<std::uint32_t>(border - first));
+  part.first_ray.push_back(static_cast<std::uint32_t>(last - first));
+  const std::uint64_t begin = all.packet_of(first), end = begin + part.packets();
+  if (!all.walked() || all.first_ray[begin] != first || all.first_ray[end] != last) return part;
+  part.first_visit = rebased(all.first_visit, begin, end);
+  part.first_entry = rebased(all.first_entry, begin, end);
+  part.visits = slice_of(all.visits, all.first_visit[begin], all.first_visit[end]);
+  part.entries = slice_of(all.entries, all.first_entry[begin], all.first_entry[end]);
+  return part;
+}
+
 }  // namespace
 
 bool holds_steps(const TraceReader& reader, cull::Design design, const cull::MaskOptions& options) {
@@ -47,10 +62,9 @@ TraceFeed::TraceFeed(const TraceReader& reader, RayRange range, const accel::Bvh
                      const cull::MaskTester& tester)
     : TraceFeed(reader, range) {
   bvh_ = &bvh;
-  if (holds_steps(reader, tester.design(), tester.options()))
-    steps_of_ = tester.design();
-  else
-    walk_with(bvh, masks, tester);
+  if (holds_steps(reader, tester.design(), tester.options())) steps_of_ = tester.design();
+  // Packets may be cut by the range, and then visit other nodes than were recorded.
+  if (!steps_of_ || packets().any()) walk_with(bvh, masks, tester);
 }
 
 void TraceFeed::walk_with(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester) {
@@ -67,13 +81,23 @@ std::shared_ptr<const reference::RayBlock> TraceFeed::next() {
   const std::uint64_t number = reader_.block_of(next_ray_);
   const std::uint64_t start = reader_.first_ray(number), end = reader_.first_ray(number + 1);
   auto block = std::make_shared<reference::RayBlock>(reader_.read_block(number, steps_of_));
-  if (steps_of_) validate_block(*block, *bvh_, reader_.manifest().masks, reader_.path());
+  if (steps_of_) validate_block(*block, *bvh_, reader_.manifest().masks, reader_.path(), packets());
   const std::uint64_t last = std::min(end, range_.last);
   if (next_ray_ != start || last != end) *block = part_of(*block, next_ray_ - start, last - start);
-  if (traversal_)
-    for (const intersect::Ray& ray : block->rays) traversal_->trace(ray, &block->steps);
+  if (traversal_ && (!steps_of_ || !block->packets.walked())) walk(*block);
   next_ray_ = last;
   return block;
+}
+
+void TraceFeed::walk(reference::RayBlock& block) const {
+  block.steps.clear();
+  if (packets().any()) {
+    const reference::PacketWalk walk(*bvh_, packets(), block.rays, block.packets);
+    walk.trace(*traversal_, block.steps);
+    block.packets = walk.list();
+  } else {
+    for (const intersect::Ray& ray : block.rays) traversal_->trace(ray, &block.steps);
+  }
 }
 
 reference::RayBlock part_of(const reference::RayBlock& block, std::uint64_t first, std::uint64_t last) {
@@ -81,8 +105,10 @@ reference::RayBlock part_of(const reference::RayBlock& block, std::uint64_t firs
   part.first_ray = block.first_ray + first;
   part.rays = slice_of(block.rays, first, last);
   part.expected = slice_of(block.expected, first, last);
+  if (block.packets.packets() != 0) part.packets = part_of(block.packets, first, last);
   const reference::StepList& all = block.steps;
   if (all.rays() == 0) return part;
+  if (!all.spared.empty()) part.steps.spared = slice_of(all.spared, first, last);
   part.steps.first_step = rebased(all.first_step, first, last);
   part.steps.first_key = rebased(all.first_key, first, last);
   part.steps.first_met = rebased(all.first_met, first, last);

@@ -37,10 +37,12 @@ class TraceFeed : public reference::RayFeed {
 
   std::shared_ptr<const reference::RayBlock> next() override;
   std::uint64_t total_rays() const override { return range_.last - range_.first; }
-  bool derives() const { return traversal_.has_value(); }  ///< steps are walked again, not read
+  reference::PacketPlan packets() const override { return reader_.manifest().packets.plan; }
+  bool derives() const { return traversal_.has_value() && !steps_of_; }  ///< steps are walked again, not read
 
  private:
   void walk_with(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester);
+  void walk(reference::RayBlock& block) const;
 
   const TraceReader& reader_;
   RayRange range_;
@@ -51,7 +53,8 @@ class TraceFeed : public reference::RayFeed {
   std::optional<reference::Traversal> traversal_;
 };
 
-/// Rays [first, last) of a block, counted from its start, with their hits and steps.
+/// Rays [first, last) of a block, counted from its start, with their hits and steps. A packet that the range cuts is a
+/// smaller one, which visits other nodes; then the part's packets are not walked.
 reference::RayBlock part_of(const reference::RayBlock& block, std::uint64_t first, std::uint64_t last);
 
 }  // namespace ctu::traces

@@ -37,8 +37,10 @@ TraceReader::TraceReader(const std::string& path) : file_(path) {
   for (const DesignCounts& entry : manifest_.designs) {
     const bool keys = cull::event_class(entry.design) == cull::Design::MaskLut;
     if (entry.stored)
-      of_rays.push_back(steps_section(std::string(cull::to_string(entry.design)), keys, has_primitive_boxes()));
+      of_rays.push_back(steps_section(std::string(cull::to_string(entry.design)),
+                                      {keys, has_primitive_boxes(), manifest_.packets.any()}));
   }
+  if (manifest_.packets.any()) of_rays.push_back(packets_section());
   expect_columns(image_section());
   for (const Section& wanted : of_rays) expect_columns(wanted);
   count_rays();
@@ -259,6 +261,7 @@ void TraceReader::read_steps(ColumnDecoder& decoder, std::uint64_t block, cull::
   list.steps.resize(total);
   for (std::uint64_t i = 0; i < total; ++i) list.steps[i] = {refs[i], dropped[i], lanes[i], detail[i]};
 
+  if (manifest_.packets.any()) list.spared = read_column<std::uint16_t>(decoder, section, "spared", block, count);
   const bool keyed = cull::event_class(design) == cull::Design::MaskLut;
   list.first_key = list.first_met = std::vector<std::uint64_t>(count + 1, 0);
   // Where the elements of a ray begin, when each of its steps has `elements(step)` of them.
@@ -282,6 +285,34 @@ void TraceReader::read_steps(ColumnDecoder& decoder, std::uint64_t block, cull::
   }
 }
 
+void TraceReader::read_packets(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const {
+  const std::string section = packets_section().name;
+  reference::PacketList& list = out.packets;
+  const auto rays = read_column<std::uint8_t>(decoder, section, "rays", block, std::nullopt);
+  const auto packets = static_cast<std::uint64_t>(rays.size());
+  for (const std::uint8_t count : rays) {
+    if (count == 0 || count > manifest_.packets.plan.size)
+      refuse(section,
+             fmt::format("a packet of {} rays, where 1 to {} are possible", count, manifest_.packets.plan.size));
+    list.first_ray.push_back(list.first_ray.back() + count);
+  }
+  if (list.first_ray.back() != out.rays.size())
+    refuse(section, fmt::format("packets of {} rays in a block of {}", list.first_ray.back(), out.rays.size()));
+  for (const std::uint16_t visits : read_column<std::uint16_t>(decoder, section, "visits", block, packets))
+    list.first_visit.push_back(list.first_visit.back() + visits);
+  for (const std::uint8_t entries : read_column<std::uint8_t>(decoder, section, "entries", block, packets)) {
+    if (entries > manifest_.packets.plan.most_entries)
+      refuse(section, fmt::format("a packet has {} entries, where up to {} are possible", entries,
+                                  manifest_.packets.plan.most_entries));
+    list.first_entry.push_back(list.first_entry.back() + entries);
+  }
+  const std::uint64_t visits = list.first_visit.back();
+  const auto node = read_column<std::uint32_t>(decoder, section, "node", block, visits);
+  const auto hit = read_column<std::uint8_t>(decoder, section, "hit", block, visits);
+  for (std::uint64_t i = 0; i < visits; ++i) list.visits.push_back({node[i], hit[i]});
+  list.entries = read_column<std::uint32_t>(decoder, section, "entry", block, list.first_entry.back());
+}
+
 reference::RayBlock TraceReader::read_block(std::uint64_t block, std::optional<cull::Design> steps_of) const {
   if (block >= blocks()) refuse("rays", fmt::format("there is no block {}", block));
   reference::RayBlock out;
@@ -292,6 +323,7 @@ reference::RayBlock TraceReader::read_block(std::uint64_t block, std::optional<c
   read_rays(decoder, block, out);
   read_hits(decoder, block, out);
   if (steps_of) read_steps(decoder, block, *steps_of, out);
+  if (manifest_.packets.any()) read_packets(decoder, block, out);
   return out;
 }
 

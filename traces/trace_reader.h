@@ -38,8 +38,8 @@ class TraceReader {
   /// The image the steps refer to, validated; where masks are compressed, every index is one of the LUT.
   accel::Image read_image() const;
 
-  /// One block; with the steps of a design that has them. Steps are whole and add up; whether they are a walk through
-  /// the image is for validate_block to say.
+  /// One block, with its packets if it has any, and with the steps of a design that has them. All are whole and add up;
+  /// whether they are walks through the image is for validate_block to say.
   reference::RayBlock read_block(std::uint64_t block, std::optional<cull::Design> steps_of = std::nullopt) const;
 
   /// Reads every byte of the file against its checksum, of sections that are not known to this program too.
@@ -63,6 +63,7 @@ class TraceReader {
   void read_rays(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const;
   void read_hits(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const;
   void read_steps(ColumnDecoder& decoder, std::uint64_t block, cull::Design design, reference::RayBlock& out) const;
+  void read_packets(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const;
   std::string describe(const IndexEntry& entry) const;
   [[noreturn]] void refuse(const std::string& section, const std::string& what) const;
 

@@ -58,7 +58,7 @@ void encode_hits(ColumnSink sink, const std::vector<intersect::Hit>& hits) {
   sink.add<std::uint32_t>(hits, [](const Hit& hit) { return hit.primitive; });
 }
 
-void encode_steps(ColumnSink sink, const reference::StepList& list, bool with_keys, bool with_met) {
+void encode_steps(ColumnSink sink, const reference::StepList& list, const StepColumns& has) {
   using reference::Step;
   std::vector<std::uint32_t> counts(list.rays());
   for (std::size_t ray = 0; ray < counts.size(); ++ray)
@@ -69,8 +69,27 @@ void encode_steps(ColumnSink sink, const reference::StepList& list, bool with_ke
   sink.add<std::uint8_t>(list.steps, [](const Step& step) { return step.dropped; });
   sink.add<std::uint8_t>(list.steps, [](const Step& step) { return step.lanes; });
   sink.add<std::uint16_t>(list.steps, [](const Step& step) { return step.detail; });
-  if (with_keys) sink.add(list.keys);
-  if (with_met) sink.add(list.met);
+  if (has.keys) sink.add(list.keys);
+  if (has.met) sink.add(list.met);
+  if (has.spared) sink.add(list.spared);
+}
+
+/// How many belong to each, from where each begins.
+template <class T, class Starts>
+std::vector<T> counts_of(const Starts& starts) {
+  std::vector<T> counts(starts.size() - 1);
+  for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = static_cast<T>(starts[i + 1] - starts[i]);
+  return counts;
+}
+
+void encode_packets(ColumnSink sink, const reference::PacketList& list) {
+  using reference::PacketVisit;
+  sink.add(counts_of<std::uint8_t>(list.first_ray));
+  sink.add(counts_of<std::uint16_t>(list.first_visit));
+  sink.add(counts_of<std::uint8_t>(list.first_entry));
+  sink.add<std::uint32_t>(list.visits, [](const PacketVisit& visit) { return visit.node; });
+  sink.add<std::uint8_t>(list.visits, [](const PacketVisit& visit) { return visit.hit; });
+  sink.add(list.entries);
 }
 
 std::vector<cull::Design> stored_designs(const Manifest& manifest) {
@@ -83,9 +102,11 @@ std::vector<cull::Design> stored_designs(const Manifest& manifest) {
 }  // namespace
 
 EncodedBlock BlockEncoder::encode(const std::vector<intersect::Ray>& rays, const std::vector<intersect::Hit>& hits,
-                                  const std::vector<reference::StepList>& steps) {
+                                  const std::vector<reference::StepList>& steps, const reference::PacketList& packets) {
   if (rays.size() > kMaxRaysPerBlock || hits.size() != rays.size() || steps.size() != designs_.size())
     throw Error("trace", "a block does not have what the trace promises", "");
+  if (in_packets_ && (!packets.walked() || packets.first_ray.back() != rays.size()))
+    throw Error("trace", "a block's packets are not walked, or not of its rays", "");
   EncodedBlock block;
   block.rays = rays.size();
   encode_rays({encoder_, block.columns, kRaysSection}, rays);
@@ -93,8 +114,11 @@ EncodedBlock BlockEncoder::encode(const std::vector<intersect::Ray>& rays, const
   for (std::size_t i = 0; i < designs_.size(); ++i) {
     if (steps[i].rays() != rays.size()) throw Error("trace", "a block has not as many event sequences as rays", "");
     encode_steps({encoder_, block.columns, static_cast<std::uint16_t>(kFirstStepsSection + i)}, steps[i],
-                 has_keys(designs_[i]), with_met_);
+                 {has_keys(designs_[i]), with_met_, in_packets_});
   }
+  if (in_packets_)
+    encode_packets({encoder_, block.columns, static_cast<std::uint16_t>(kFirstStepsSection + designs_.size())},
+                   packets);
   return block;
 }
 
@@ -103,7 +127,7 @@ TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel
     : manifest_(std::move(manifest)),
       stored_designs_(stored_designs(manifest_)),
       with_met_(image.layout.primitive_boxes),
-      encoder_(stored_designs_, with_met_),
+      encoder_(stored_designs_, with_met_, manifest_.packets.any()),
       file_(path) {
   manifest_.tool = std::string("ctusim ") + tool_version();
   manifest_.ray_count = 0;
@@ -112,10 +136,12 @@ TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel
   manifest_.image.shape.bytes = {};
   manifest_.sections = {image_section(), rays_section(), hits_section()};
   for (const cull::Design design : stored_designs_)
-    manifest_.sections.push_back(steps_section(std::string(cull::to_string(design)), has_keys(design), with_met_));
+    manifest_.sections.push_back(steps_section(std::string(cull::to_string(design)),
+                                               {has_keys(design), with_met_, manifest_.packets.any()}));
+  if (manifest_.packets.any()) manifest_.sections.push_back(packets_section());
   if (manifest_.masks.entries != 0) manifest_.sections.push_back(compression_section());
 
-  const FileHeader header = make_header();
+  const FileHeader header = make_header(manifest_.format_minor());
   file_.write(&header, sizeof header);
   add_image(image);
   assert((manifest_.masks.entries != 0) == (compression != nullptr));
@@ -157,7 +183,7 @@ void TraceWriter::add(const EncodedBlock& block) {
 }
 
 void TraceWriter::add(const reference::RayBlock& block, const std::vector<reference::StepList>& steps) {
-  add(encoder_.encode(block.rays, block.expected, steps));
+  add(encoder_.encode(block.rays, block.expected, steps, block.packets));
 }
 
 std::string TraceWriter::finish(std::vector<DesignCounts> designs, std::vector<Difference> differences) {

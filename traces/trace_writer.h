@@ -23,13 +23,15 @@ struct EncodedBlock {
 class BlockEncoder {
  public:
   /// `designs`: whose steps are stored, in the order in which `encode` gets them; `with_met`: with what ray boxes meet.
-  BlockEncoder(std::vector<cull::Design> designs, bool with_met) : designs_(std::move(designs)), with_met_(with_met) {}
+  BlockEncoder(std::vector<cull::Design> designs, bool with_met, bool in_packets)
+      : designs_(std::move(designs)), with_met_(with_met), in_packets_(in_packets) {}
+  /// `packets`: empty where rays travel alone.
   EncodedBlock encode(const std::vector<intersect::Ray>& rays, const std::vector<intersect::Hit>& hits,
-                      const std::vector<reference::StepList>& steps);
+                      const std::vector<reference::StepList>& steps, const reference::PacketList& packets = {});
 
  private:
   std::vector<cull::Design> designs_;
-  bool with_met_;
+  bool with_met_, in_packets_;
   ColumnEncoder encoder_;
 };
 
@@ -41,7 +43,7 @@ class TraceWriter {
   TraceWriter(const std::string& path, Manifest manifest, const accel::Image& image,
               const cull::CompressionLut* compression = nullptr);
 
-  BlockEncoder make_encoder() const { return BlockEncoder(stored_designs_, with_met_); }
+  BlockEncoder make_encoder() const { return BlockEncoder(stored_designs_, with_met_, manifest_.packets.any()); }
   void add(const EncodedBlock& block);
   void add(const reference::RayBlock& block, const std::vector<reference::StepList>& steps);
 

@@ -1,5 +1,6 @@
 #include "traces/validate_block.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <vector>
@@ -8,6 +9,7 @@
 
 #include "model/base/error.h"
 #include "model/cull/cell_locate.h"
+#include "model/reference/entry_search.h"
 
 namespace ctu::traces {
 namespace {
@@ -43,14 +45,14 @@ class Follower {
     ray_ = block.first_ray + index;
     const reference::StepList& list = block.steps;
     const std::uint64_t first = list.first_step[index], last = list.first_step[index + 1];
+    depth_ = 0;
+    if (intersect::is_valid(block.rays[index])) begin(block.packets, index);
     if (first == last) {
-      if (intersect::is_valid(block.rays[index])) refuse("a valid ray visits nothing");
-      if (list.tail_dropped[index] != 0) refuse("entries are dropped from an empty stack");
+      if (depth_ == 1 && stack_[0] == 0 && block.packets.packets() == 0) refuse("a valid ray visits nothing");
+      if (list.tail_dropped[index] != depth_) refuse("entries are dropped that are not on the stack, or left there");
       return;
     }
     met_ = list.met.empty() ? nullptr : list.met.data() + list.first_met[index];
-    stack_[0] = 0;
-    depth_ = 1;
     bool found = false;
     for (std::uint64_t i = first; i < last; ++i) {
       const Step& step = list.steps[i];
@@ -62,6 +64,30 @@ class Follower {
         node(step);
     }
     if (list.tail_dropped[index] != (found ? 0 : depth_)) refuse("entries are left on the stack at the end");
+  }
+
+  /// The packet's search, answered as recorded, asks for what it visits and ends with its entries.
+  void follow_packet(const reference::RayBlock& block, std::uint64_t packet, int most_entries) {
+    const reference::PacketList& list = block.packets;
+    ray_ = block.first_ray + list.first_ray[packet];
+    bool anybody = false;
+    for (std::uint64_t ray = list.first_ray[packet]; ray < list.first_ray[packet + 1]; ++ray)
+      anybody |= intersect::is_valid(block.rays[ray]);
+    reference::EntrySearch search;
+    std::uint64_t visit = list.first_visit[packet];
+    if (anybody)
+      for (search.begin(most_entries, 0); !search.done(); ++visit) {
+        if (visit == list.first_visit[packet + 1] || list.visits[visit].node != search.node())
+          refuse("its packet does not visit what it must");
+        const accel::Node4& node = bvh_.nodes[search.node()];
+        const reference::Children children{node.child[0], node.child[1], node.child[2], node.child[3]};
+        const unsigned hit = list.visits[visit].hit;
+        if ((hit & ~reference::lanes_of(children)) != 0) refuse("its packet meets an empty lane");
+        constexpr float kAnyTime[4] = {};
+        search.answer(children, hit, kAnyTime);
+      }
+    if (visit != list.first_visit[packet + 1]) refuse("its packet visits more than it may");
+    check_entries(list, packet, search.entries());
   }
 
   void check_keys(const std::vector<std::uint32_t>& keys) const {
@@ -80,6 +106,29 @@ class Follower {
   }
 
  private:
+  /// The same entries in any order: which are nearer is for arithmetic to say.
+  void check_entries(const reference::PacketList& list, std::uint64_t packet, const reference::EntryList& found) const {
+    const auto at = [](std::uint64_t i) { return static_cast<std::ptrdiff_t>(i); };
+    std::vector<accel::ChildRef> recorded(list.entries.begin() + at(list.first_entry[packet]),
+                                          list.entries.begin() + at(list.first_entry[packet + 1]));
+    std::vector<accel::ChildRef> right;
+    for (int i = 0; i < found.count(); ++i) right.push_back(found[i].ref);
+    std::sort(recorded.begin(), recorded.end());
+    std::sort(right.begin(), right.end());
+    if (recorded != right) refuse("its packet ends with other entries than its visits give");
+  }
+
+  /// The stack of a ray that begins: the root, or the entries of its packet.
+  void begin(const reference::PacketList& list, std::uint64_t index) {
+    if (list.packets() == 0) {
+      stack_[depth_++] = 0;
+      return;
+    }
+    const std::uint64_t packet = list.packet_of(index);
+    for (std::uint64_t i = list.first_entry[packet + 1]; i-- > list.first_entry[packet];)
+      stack_[depth_++] = list.entries[i];
+  }
+
   [[noreturn]] void refuse(const std::string& what) const {
     throw Error(path_, fmt::format("steps: ray {}: {}", ray_, what), "record the trace again");
   }
@@ -131,9 +180,11 @@ class Follower {
 }  // namespace
 
 void validate_block(const reference::RayBlock& block, const accel::Bvh4& bvh, const cull::MaskOptions& masks,
-                    const std::string& path) {
+                    const std::string& path, const reference::PacketPlan& packets) {
   if (block.steps.rays() == 0) return;
   Follower follower(bvh, masks, path);
+  for (std::uint64_t packet = 0; packet < block.packets.packets(); ++packet)
+    follower.follow_packet(block, packet, packets.most_entries);
   for (std::uint64_t ray = 0; ray < block.rays.size(); ++ray) follower.follow(block, ray);
   follower.check_keys(block.steps.keys);
 }

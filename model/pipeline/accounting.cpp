@@ -21,6 +21,7 @@ constexpr Term kActivityTerms[kActivities] = {
     {"memory", "nothing to do but wait for memory"},
     {"spill", "the short stack is full and entries go to memory first"},
     {"interval", "work waits for the initiation interval to end"},
+    {"no_packet", "rays wait and the registers of all packets are taken"},
 };
 
 constexpr Term kPlaceTerms[kPlaces] = {
@@ -43,6 +44,7 @@ constexpr Term kPlaceTerms[kPlaces] = {
     {"sphere_test", "in the sphere test, from the leaf's last outcome on"},
     {"hit_update", "the outcome of the leaf is being written"},
     {"result", "finished, waiting to be returned"},
+    {"packet_cull", "waiting until the packet is whole, has found its entries, and the stack takes them"},
 };
 
 }  // namespace

@@ -26,8 +26,9 @@ enum class Activity : std::uint8_t {
   Memory,          ///< nothing to do but wait for memory
   Spill,           ///< the short stack is full: entries go to memory first
   Interval,        ///< the initiation interval is not over
+  NoPacket,        ///< rays wait, the registers of all packets are taken
 };
-inline constexpr int kActivities = 11;
+inline constexpr int kActivities = 12;
 
 std::string_view name_of(Activity activity);
 std::string_view description_of(Activity activity);
@@ -88,8 +89,9 @@ enum class Place : std::uint8_t {
   SphereTest,
   HitUpdate,
   Result,
+  PacketCull,
 };
-inline constexpr int kPlaces = 19;
+inline constexpr int kPlaces = 20;
 
 std::string_view name_of(Place place);
 std::string_view description_of(Place place);

@@ -22,7 +22,10 @@ void for_each_link(Stages<Source, Wiring>& stages, bool has_spills, Join&& join)
   constexpr int kNode = static_cast<int>(Client::NodeFetch), kLeaf = static_cast<int>(Client::LeafFetch),
                 kStack = static_cast<int>(Client::Stack), kTable = static_cast<int>(Client::TableFetch);
 
-  join("ray_to_scheduler", ray_queue.to_scheduler, scheduler.from_rays);
+  if (stages.packet_cull)
+    join("packet_to_scheduler", Wiring::stage(*stages.packet_cull).to_scheduler, scheduler.from_rays);
+  else
+    join("ray_to_scheduler", ray_queue.to_scheduler, scheduler.from_rays);
   join("ray_to_result", ray_queue.to_result, result_queue.from_rays);
   join("result_to_ray", result_queue.freed, ray_queue.freed);
   join("scheduler_to_node", scheduler.to_node_fetch, node_fetch.requests);
@@ -74,6 +77,13 @@ void for_each_link(Stages<Source, Wiring>& stages, bool has_spills, Join&& join)
     auto& table_fetch = Wiring::stage(*stages.table_fetch);
     join("table_to_memory", table_fetch.misses, memory_port.requests[kTable]);
     join("memory_to_table", memory_port.answers[kTable], table_fetch.fills);
+  }
+  if (stages.packet_cull) {
+    auto& packet_cull = Wiring::stage(*stages.packet_cull);
+    join("ray_to_packet", ray_queue.to_packets, packet_cull.rays);
+    join("node_to_packet", node_fetch.to_packets, packet_cull.nodes);
+    join("packet_to_stack", packet_cull.starts, stack.starts);
+    join("stack_to_packet", stack.released, packet_cull.released);
   }
 }
 

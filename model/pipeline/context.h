@@ -19,6 +19,7 @@ struct Context {
   std::uint64_t ray = 0;  ///< number in the whole trace
   std::shared_ptr<const reference::RayBlock> block;
   std::uint32_t index = 0;   ///< of the ray in its block
+  std::uint32_t packet = 0;  ///< of the ray's packet in its block, where rays travel in packets
   std::uint32_t visits = 0;  ///< nodes and leaves visited so far
   Cycle entered = 0;         ///< cycle it took the context
   bool any_hit = false;

@@ -75,8 +75,8 @@ class Parts<Source, ChainedWiring> {
   Parts(UnitState<Source>& state, Stages<Source, ChainedWiring>& stages) : stages_(stages), chain_(state, stages) {}
   auto all() {
     auto& s = stages_;
-    return std::tie(s.ray_queue, s.scheduler, s.node_fetch, chain_, s.traversal_stack, s.leaf_fetch, s.primitive_cull,
-                    s.triangle_test, s.sphere_test, s.hit_update, s.result_queue, s.memory_port);
+    return std::tie(s.ray_queue, s.packet_cull, s.scheduler, s.node_fetch, chain_, s.traversal_stack, s.leaf_fetch,
+                    s.primitive_cull, s.triangle_test, s.sphere_test, s.hit_update, s.result_queue, s.memory_port);
   }
   RigidChain* row() { return &chain_.row(); }
 

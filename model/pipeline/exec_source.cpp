@@ -23,7 +23,8 @@ ExecSource::ExecSource(const UnitConfig& config, const UnitImage& image, const c
       ray_resolution_(tester.options().ray_resolution),
       words_(cull::words_per_mask(tester.options().resolution)),
       reads_bit_rows_(design_ == Design::BitTable || (design_ == Design::Dedup && image.compressed())),
-      registers_(static_cast<std::size_t>(contexts.count())) {}
+      registers_(static_cast<std::size_t>(contexts.count())),
+      packets_(image.packet_entries() > 0 ? static_cast<std::size_t>(config.packet_cull.packets) : 0) {}
 
 bool ExecSource::begin(Slot slot) {
   const Context& context = contexts_[slot];
@@ -45,6 +46,39 @@ bool ExecSource::begin(Slot slot) {
     }
   }
   return r.ray.valid;
+}
+
+void ExecSource::open_packet(int packet, Slot leader) {
+  const Context& context = contexts_[leader];
+  const bool recorded = context.block->packets.walked();
+  packets_[static_cast<std::size_t>(packet)] = {{}, recorded ? context.block : nullptr, context.packet, 0};
+}
+
+void ExecSource::join_packet(int packet, Slot slot) {
+  packets_[static_cast<std::size_t>(packet)].slabs.add(registers_[slot].ray);
+}
+
+cull::packet::PacketTimes ExecSource::packet_test(int packet, std::uint32_t node) {
+  PacketRegisters& r = packets_[static_cast<std::size_t>(packet)];
+  const cull::packet::PacketTimes times = r.slabs.test(image_.boxes(node));
+  if (r.block == nullptr) return times;
+  const reference::PacketList& list = r.block->packets;
+  const std::uint64_t visit = list.first_visit[r.number] + r.visits++;
+  if (visit >= list.first_visit[r.number + 1] || !(list.visits[visit] == reference::PacketVisit{node, times.hit}))
+    ++event_mismatches_;
+  return times;
+}
+
+reference::EntryList ExecSource::packet_entries(int packet, const reference::EntryList& found) {
+  const PacketRegisters& r = packets_[static_cast<std::size_t>(packet)];
+  if (r.block == nullptr) return found;
+  const reference::PacketList& list = r.block->packets;
+  const std::uint64_t first = list.first_entry[r.number], count = list.first_entry[r.number + 1] - first;
+  bool same = count == static_cast<std::uint64_t>(found.count());
+  for (int i = 0; same && i < found.count(); ++i)
+    same = found[i].ref == list.entries[first + static_cast<std::uint64_t>(i)];
+  if (!same || list.first_visit[r.number] + r.visits != list.first_visit[r.number + 1]) ++event_mismatches_;
+  return found;
 }
 
 void ExecSource::visit(Slot slot, accel::ChildRef ref) {

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "model/cull/mask_test.h"
+#include "model/cull/packet/packet_slabs.h"
 #include "model/pipeline/outcome.h"
 #include "model/pipeline/unit_config.h"
 #include "model/pipeline/unit_image.h"
+#include "model/reference/entry_list.h"
 
 namespace ctu::pipeline {
 
@@ -40,6 +42,14 @@ class ExecSource {
   ExecSource(const UnitConfig& config, const UnitImage& image, const cull::MaskTester& tester, Contexts& contexts);
 
   bool begin(Slot slot);
+  void open_packet(int packet, Slot leader);
+  void join_packet(int packet, Slot slot);
+  float packet_begins(int packet) const { return packets_[static_cast<std::size_t>(packet)].slabs.begins(); }
+  cull::packet::PacketTimes packet_test(int packet, std::uint32_t node);
+  reference::EntryList packet_entries(int packet, const reference::EntryList& found);
+  void started(Slot slot, int position, const reference::Entry& entry) {
+    registers_[slot].stack_t0[position] = entry.t0;
+  }
   void visit(Slot slot, accel::ChildRef ref);
   std::uint8_t box_test(Slot slot, accel::ChildRef node);
   std::uint8_t locate(Slot slot, unsigned hits);
@@ -58,7 +68,7 @@ class ExecSource {
   bool has_hit(Slot slot) const { return registers_[slot].best.primitive != intersect::kNoPrimitive; }
   reference::Step finish_visit(Slot slot);
   intersect::Hit finish(Slot slot, const accel::Image& bytes);
-  /// Visits, and drops at the end of a ray, that differ from the recorded ones.
+  /// Visits and entries, and drops at the end of a ray, that differ from the recorded ones.
   std::uint64_t event_mismatches() const { return event_mismatches_; }
   /// What the context holds now: what a twin's register files are compared with.
   const Registers& registers(Slot slot) const { return registers_[slot]; }
@@ -70,6 +80,13 @@ class ExecSource {
   /// The answers for every entry of the compression LUT.
   const std::uint64_t* bit_row(const Registers& r, int lane) const;
 
+  /// Of a packet: its bounds, and what is recorded of it.
+  struct PacketRegisters {
+    cull::packet::PacketSlabs slabs;
+    std::shared_ptr<const reference::RayBlock> block;  ///< null where nothing is recorded
+    std::uint64_t number = 0, visits = 0;
+  };
+
   const UnitImage& image_;
   Contexts& contexts_;
   const cull::MaskTester& tester_;
@@ -77,6 +94,7 @@ class ExecSource {
   int resolution_, ray_resolution_, words_;
   bool reads_bit_rows_;
   std::vector<Registers> registers_;
+  std::vector<PacketRegisters> packets_;  ///< none where rays travel alone
   std::uint64_t event_mismatches_ = 0;
 };
 

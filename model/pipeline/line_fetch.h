@@ -5,6 +5,7 @@
 //   in   fills      lines that memory has answered, by miss register
 //   out  misses     lines asked of memory; the id is the miss register
 //   out  done       tokens all of whose lines are there, in the order of completion
+//   out  to_packets the same of tokens that are a packet's; only of node_fetch
 //   A token taken in cycle t looks up its first line in t, and up to `ports` lines a cycle. When the last of n lines
 //   has been looked up, in cycle t + ceil(n / ports) - 1, and all of them hit, the data are read hit_latency cycles
 //   later, and the token leaves in the cycle behind that. One new line a cycle can be asked of memory. A line that
@@ -32,8 +33,16 @@
 
 namespace ctu::pipeline {
 
+/// The way of tokens that are a packet's.
+template <class Lines, class Wiring, bool kServesPackets = Lines::kServesPackets>
+struct PacketPort {};
 template <class Lines, class Wiring>
-class LineFetch {
+struct PacketPort<Lines, Wiring, true> {
+  typename Wiring::template Out<typename Lines::Done> to_packets;
+};
+
+template <class Lines, class Wiring>
+class LineFetch : public PacketPort<Lines, Wiring> {
  public:
   using Token = typename Lines::Token;
   using Done = typename Lines::Done;
@@ -106,14 +115,24 @@ class LineFetch {
 
   bool present(Cycle now, bool& blocked) {
     if (finished_.empty()) return false;
-    if (!done.can_push(now)) {
-      blocked = true;
-      return false;
+    if constexpr (Lines::kServesPackets) {
+      if (packets_finished_ != 0 && Lines::of_packet(token_of_[static_cast<std::size_t>(finished_.next_from(turn_))])) {
+        blocked = !present_to(now, this->to_packets);
+        packets_finished_ -= blocked ? 0 : 1;
+        return !blocked;
+      }
     }
+    blocked = !present_to(now, done);
+    return !blocked;
+  }
+
+  template <class Out>
+  bool present_to(Cycle now, Out& out) {
+    if (!out.can_push(now)) return false;
     const int slot = finished_.next_from(turn_);
     finished_.remove(slot);
     turn_ = (slot + 1) & (kMaxContexts - 1);
-    done.push(now, Lines::done(token_of_[static_cast<std::size_t>(slot)]));
+    out.push(now, Lines::done(token_of_[static_cast<std::size_t>(slot)]));
     return true;
   }
 
@@ -143,6 +162,8 @@ class LineFetch {
         return;
       }
     }
+    if constexpr (Lines::kServesPackets)
+      packets_finished_ += Lines::of_packet(token_of_[static_cast<std::size_t>(slot)]);
     finished_.add(slot);
   }
 
@@ -258,6 +279,7 @@ class LineFetch {
   std::array<Token, kMaxContexts> token_of_{};
   std::array<std::uint8_t, kMaxContexts> waiting_for_{};
   SlotSet finished_;
+  int packets_finished_ = 0;  ///< of those, a packet's
   int turn_ = 0;
   Counters counters_;
 };

@@ -1,9 +1,10 @@
 // The whole unit: every stage, every link, and one cycle of all of them.
 //
-//   ray_queue -> scheduler -> node_fetch -> box_test
+//   ray_queue -> [packet_cull ->] scheduler -> node_fetch -> box_test [, packet_cull]
 //                  |  ^         -> [cell_locate -> [table_fetch ->] mask_test ->] child_sort -> traversal_stack
 //                  |  +--------------------------------------------------------------------------+  ^  +-> result_queue
 //                  +-> leaf_fetch -> [primitive_cull ->] triangle_test -> [sphere_test ->] hit_update +
+//   [packet_cull -> traversal_stack -> packet_cull]
 //   memory_port <-> node_fetch, leaf_fetch [, traversal_stack] [, table_fetch]
 //
 // What stands in [ ] is left out when the configuration or the image does not need it (contract 5).
@@ -20,6 +21,7 @@
 #include "model/pipeline/mask_test.h"
 #include "model/pipeline/memory_port.h"
 #include "model/pipeline/node_fetch.h"
+#include "model/pipeline/packet_cull.h"
 #include "model/pipeline/primitive_cull.h"
 #include "model/pipeline/ray_queue.h"
 #include "model/pipeline/result_queue.h"
@@ -39,11 +41,13 @@ struct UnitState {
       : config(config_),
         bytes(work.image),
         tables(work.tester, config_.mask_test.rows, config_.mask_test.projection_tables),
-        image(work.image, work.tester, Source::kComputes),
+        image(work.image, work.tester, Source::kComputes, work.rays.packets().most_entries),
         contexts(config_.unit.contexts),
+        packets(work.rays.packets().any() ? config_.packet_cull.packets : 0),
         source(config, image, work.tester, contexts),
         log(keep_events),
         has_mask_test(config.mask_test.design != cull::Design::None),
+        has_packets(work.rays.packets().any()),
         has_table_fetch(config.table_cache.bytes > 0 && !tables.tables().empty()),
         has_spills(image.stack_bound() > config.stack.entries) {}
 
@@ -52,9 +56,11 @@ struct UnitState {
   cull::OnChipTables tables;
   UnitImage image;
   Contexts contexts;
+  Packets packets;
   Source source;
   EventLog log;
   bool has_mask_test;
+  bool has_packets;
   bool has_table_fetch;
   bool has_spills;
 };
@@ -71,7 +77,7 @@ struct Stages {
         node_fetch(s.config, s.image, s.contexts),
         box_test(s.config, s.image, s.contexts, s.source),
         child_sort(s.config, s.contexts, s.source),
-        traversal_stack(s.config, s.contexts, s.source, s.log, s.image),
+        traversal_stack(s.config, s.contexts, s.packets, s.source, s.log, s.image),
         leaf_fetch(s.config, s.image, s.contexts),
         triangle_test(s.config, s.contexts, s.source),
         hit_update(s.config, s.contexts, s.source, s.log, s.image.primitive_boxes()),
@@ -81,6 +87,7 @@ struct Stages {
                                                 : Client::LeafFetch) {
     if (s.image.primitive_boxes()) primitive_cull.emplace(s.config, s.contexts, s.source);
     if (s.image.spheres() != 0) sphere_test.emplace(s.config, s.contexts, s.source);
+    if (s.has_packets) packet_cull.emplace(s.config, s.image, s.contexts, s.packets, s.source, s.log);
     if (!s.has_mask_test) return;
     cell_locate.emplace(s.config, s.contexts, s.source);
     if (s.has_table_fetch) table_fetch.emplace(s.config, s.tables, s.image, s.contexts, s.source);
@@ -88,6 +95,7 @@ struct Stages {
   }
 
   Holder<RayQueue<Source, Wiring>> ray_queue;
+  std::optional<Holder<PacketCull<Source, Wiring>>> packet_cull;
   Holder<Scheduler<Source, Wiring>> scheduler;
   Holder<NodeFetch<Wiring>> node_fetch;
   Holder<BoxTest<Source, Wiring>> box_test;
@@ -106,9 +114,9 @@ struct Stages {
 
   /// Every stage in its holder, those that may be left out in an optional.
   auto all() {
-    return std::tie(ray_queue, scheduler, node_fetch, box_test, cell_locate, table_fetch, mask_test, child_sort,
-                    traversal_stack, leaf_fetch, primitive_cull, triangle_test, sphere_test, hit_update, result_queue,
-                    memory_port);
+    return std::tie(ray_queue, packet_cull, scheduler, node_fetch, box_test, cell_locate, table_fetch, mask_test,
+                    child_sort, traversal_stack, leaf_fetch, primitive_cull, triangle_test, sphere_test, hit_update,
+                    result_queue, memory_port);
   }
 };
 

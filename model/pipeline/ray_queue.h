@@ -4,6 +4,8 @@
 //   in   freed         contexts that result_queue has emptied
 //   out  to_scheduler  the root, for each ray
 //   out  to_result     rays that visit nothing
+//   out  to_packets    instead of to_scheduler, where rays travel in packets: each ray that is valid or the last one of
+//                      its packet
 //   latency ray_setup.latency, one ray each ray_setup.interval cycles (the directed divider is shared by the axes)
 //   stalls: no_context, output_full
 //
@@ -28,11 +30,13 @@ class RayQueue {
   typename Wiring::template In<SlotToken> freed;
   typename Wiring::template Out<RefToken> to_scheduler;
   typename Wiring::template Out<SlotToken> to_result;
+  typename Wiring::template Out<JoinToken> to_packets;
 
   RayQueue(const UnitConfig& config, Contexts& contexts, Source& source, reference::RayFeed& feed, bool needs_steps)
       : contexts_(contexts),
         source_(source),
         feed_(feed),
+        packets_(feed.packets()),
         needs_steps_(needs_steps),
         interval_(static_cast<Cycle>(config.ray_setup.interval)),
         setup_(config.ray_setup.latency) {
@@ -76,14 +80,28 @@ class RayQueue {
   struct Prepared {
     Slot slot;
     bool valid;
+    bool closes = false;  ///< the last ray of a packet
   };
 
   bool leave(Cycle now) {
     const Prepared& prepared = setup_.front();
+    if (packets_.any()) return leave_to_packet(now, prepared);
     if (prepared.valid ? !to_scheduler.can_push(now) : !to_result.can_push(now)) return false;
     if (prepared.valid) {
       to_scheduler.push(now, {0, prepared.slot});
     } else {
+      contexts_.move(prepared.slot, now, Place::Result);
+      to_result.push(now, {prepared.slot});
+    }
+    setup_.leave(now);
+    return true;
+  }
+
+  bool leave_to_packet(Cycle now, const Prepared& prepared) {
+    const bool joins = prepared.valid || prepared.closes;
+    if ((joins && !to_packets.can_push(now)) || (!prepared.valid && !to_result.can_push(now))) return false;
+    if (joins) to_packets.push(now, {prepared.slot, prepared.valid, prepared.closes});
+    if (!prepared.valid) {
       contexts_.move(prepared.slot, now, Place::Result);
       to_result.push(now, {prepared.slot});
     }
@@ -103,13 +121,19 @@ class RayQueue {
     context.visits = 0;
     context.depth = context.spilled = 0;
     contexts_.occupy(slot, now);
-    setup_.enter(now, {slot, source_.begin(slot)}, interval_);
+    bool closes = false;
+    if (packets_.any()) {
+      context.packet = packet_;
+      closes = index_ + 1 == block_->packets.first_ray[packet_ + 1];
+      packet_ += closes;
+    }
+    setup_.enter(now, {slot, source_.begin(slot), closes}, interval_);
     ++rays_taken_;
     if (++index_ == block_->rays.size()) next_block();
   }
 
   void next_block() {
-    index_ = 0;
+    index_ = packet_ = 0;
     do {
       block_ = feed_.next();
     } while (block_ != nullptr && block_->rays.empty());
@@ -120,18 +144,34 @@ class RayQueue {
     if (needs_steps_ && block_->steps.rays() < block_->rays.size())
       throw Error("ray block at ray " + std::to_string(block_->first_ray), "recorded steps are missing",
                   "record them, or let the unit compute (exec)");
+    if (packets_.any()) check_packets();
+  }
+
+  /// The block's packets are as the feed says.
+  void check_packets() const {
+    const reference::PacketList& list = block_->packets;
+    const auto refuse = [&](const char* what) {
+      throw Error("ray block at ray " + std::to_string(block_->first_ray), what, "record the trace again");
+    };
+    if (list.first_ray.back() != block_->rays.size()) refuse("its packets do not hold its rays");
+    for (std::uint64_t p = 0; p < list.packets(); ++p)
+      if (list.first_ray[p + 1] <= list.first_ray[p] ||
+          list.first_ray[p + 1] - list.first_ray[p] > static_cast<std::uint32_t>(packets_.size))
+        refuse("a packet has no rays, or more than there may be");
+    if (needs_steps_ && !list.walked()) refuse("what its packets visit is missing");
   }
 
   Contexts& contexts_;
   Source& source_;
   reference::RayFeed& feed_;
+  reference::PacketPlan packets_;
   bool needs_steps_;
   Cycle interval_;
   Pipe<Prepared> setup_;
   std::vector<Slot> free_;  // a ring
   std::size_t first_free_ = 0, free_count_ = static_cast<std::size_t>(contexts_.count());
   std::shared_ptr<const reference::RayBlock> block_;
-  std::uint32_t index_ = 0;
+  std::uint32_t index_ = 0, packet_ = 0;
   std::uint64_t rays_taken_ = 0;
 };
 

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "model/cull/packet/packet_slabs.h"
 #include "model/pipeline/outcome.h"
 #include "model/pipeline/unit_config.h"
 #include "model/pipeline/unit_image.h"
+#include "model/reference/entry_list.h"
 #include "model/reference/primitive_test.h"
 
 namespace ctu::pipeline {
@@ -23,7 +25,8 @@ class ReplaySource {
         contexts_(contexts),
         keyed_(cull::reads_tables(config.mask_test.design)),
         boxed_(image.primitive_boxes()),
-        registers_(static_cast<std::size_t>(contexts.count())) {}
+        registers_(static_cast<std::size_t>(contexts.count())),
+        packets_(image.packet_entries() > 0 ? static_cast<std::size_t>(config.packet_cull.packets) : 0) {}
 
   /// Sets up a context for its ray; whether the ray visits anything.
   bool begin(Slot slot) {
@@ -42,7 +45,39 @@ class ReplaySource {
     r.best = intersect::kNoPrimitive;
     __builtin_prefetch(r.step);  // a place of its own for every ray, first looked at when it is issued
     __builtin_prefetch(r.key);
+    if (!packets_.empty()) return intersect::is_valid(context.block->rays[context.index]);  // it may be all packet
     return r.step != r.end;
+  }
+
+  /// A packet begins, with its first ray.
+  void open_packet(int packet, Slot leader) {
+    const Context& context = contexts_[leader];
+    packets_[static_cast<std::size_t>(packet)] = {context.block, context.packet, 0, leader};
+  }
+  void join_packet(int, Slot) {}
+  float packet_begins(int) const { return 0; }
+  /// The children of `node` that some ray of the packet may meet; the times are not needed.
+  cull::packet::PacketTimes packet_test(int packet, std::uint32_t node) {
+    PacketRegisters& r = packets_[static_cast<std::size_t>(packet)];
+    const reference::PacketList& list = r.block->packets;
+    const std::uint64_t visit = list.first_visit[r.number] + r.visits++;
+    if (visit >= list.first_visit[r.number + 1] || list.visits[visit].node != node)
+      throw_event_mismatch(contexts_[r.leader],
+                           "its packet visits " + std::to_string(node) + ", which is not recorded");
+    cull::packet::PacketTimes times;
+    times.hit = list.visits[visit].hit;
+    return times;
+  }
+  /// Where the packet's rays go on, nearest first.
+  reference::EntryList packet_entries(int packet, const reference::EntryList& found) {
+    const PacketRegisters& r = packets_[static_cast<std::size_t>(packet)];
+    const reference::PacketList& list = r.block->packets;
+    const std::uint64_t first = list.first_entry[r.number], last = list.first_entry[r.number + 1];
+    if (last - first != static_cast<std::uint64_t>(found.count()))
+      throw_event_mismatch(contexts_[r.leader], "its packet ends with other entries than are recorded");
+    reference::EntryList entries;
+    for (std::uint64_t i = first; i < last; ++i) entries.add({list.entries[i], 0});
+    return entries;
   }
 
   /// A visit begins.
@@ -89,6 +124,7 @@ class ReplaySource {
   }
 
   void pushed(Slot, int, int) {}
+  void started(Slot, int, const reference::Entry&) {}
   /// A pop begins: `drops` of the recording are due first.
   void begin_pop(Slot slot) {
     Registers& r = registers_[slot];
@@ -161,10 +197,17 @@ class ReplaySource {
     std::uint8_t tail_dropped = 0, drops_left = 0;
   };
 
+  struct PacketRegisters {
+    std::shared_ptr<const reference::RayBlock> block;
+    std::uint64_t number = 0, visits = 0;
+    Slot leader = 0;
+  };
+
   const UnitImage& image_;
   Contexts& contexts_;
   bool keyed_, boxed_;
   std::vector<Registers> registers_;
+  std::vector<PacketRegisters> packets_;  ///< none where rays travel alone
 };
 
 }  // namespace ctu::pipeline

@@ -18,6 +18,20 @@ class CounterList {
   }
   void add_cache(const std::string& stage, std::uint64_t lookups, std::uint64_t hits, std::uint64_t merges,
                  std::uint64_t evictions, std::uint64_t fills, std::uint64_t most_mshrs);
+  /// `packets`: of packet_cull.
+  template <class Counters>
+  void add_packets(const Counters& packets) {
+    add("packets.packets", "packets", "packets whose rays walked the top of the tree together", packets.packets);
+    add("packets.rays", "rays", "rays in them", packets.rays);
+    add("packets.node_visits", "nodes", "nodes that packets were asked about", packets.visits);
+    add("packets.children_dropped", "children", "children that all rays of a packet miss", packets.dropped);
+    add("packets.entries", "nodes", "entries, summed over packets", packets.entries);
+    add("packets.all_miss", "packets", "packets without any entry: all their rays miss", packets.missing_packets);
+    add("packets.node_tests_saved", "box tests",
+        "box tests above the entries that rays make when they walk alone, as recorded", packets.spared);
+    add("packets.most_under_way", "packets", "most packets under way at once",
+        static_cast<std::uint64_t>(packets.most_under_way));
+  }
   void add_banked(const BankedMemory::Counters& memory);
   /// The mask test's tables, together and one by one. `cached`: they lie in memory, behind table_cache.
   void add_tables(const TableBanks& tables, bool cached, const CacheConfig& cache);
@@ -71,6 +85,7 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
                state.contexts.occupied_cycles());
   counters.add("contexts.most_occupied", "contexts", "most contexts occupied at once",
                static_cast<std::uint64_t>(state.contexts.most_occupied()));
+  if (stages.packet_cull) counters.add_packets(Wiring::stage(*stages.packet_cull).counters());
   counters.add("scheduler.most_ready", "rays", "most rays ready at once", Wiring::stage(stages.scheduler).most_ready());
   const auto add_fetch = [&](const auto& fetch) {
     const auto& c = fetch.counters();

@@ -83,7 +83,7 @@ class Scheduler {
       (leaf ? leaf_queue_ : node_queue_).push({token, arrivals_++});
     } else {
       (leaf ? leaf_set_ : node_set_).add(token.slot);
-      ref_of_[token.slot] = token.ref;
+      token_of_[token.slot] = token;
     }
     if (++ready_ > most_ready_) most_ready_ = ready_;
     return true;
@@ -108,7 +108,7 @@ class Scheduler {
     const SlotSet* leaves = to_leaf_fetch.can_push(now) ? &leaf_set_ : nullptr;
     const int slot = next_of_either(nodes, leaves, turn_);
     if (slot < 0) return false;
-    const RefToken token{ref_of_[static_cast<std::size_t>(slot)], static_cast<Slot>(slot)};
+    const RefToken token = token_of_[static_cast<std::size_t>(slot)];
     (accel::is_leaf(token.ref) ? leaf_set_ : node_set_).remove(slot);
     turn_ = (slot + 1) & (kMaxContexts - 1);
     issue(now, token);
@@ -116,7 +116,7 @@ class Scheduler {
   }
 
   void issue(Cycle now, const RefToken& token) {
-    source_.visit(token.slot, token.ref);
+    if (!token.of_packet) source_.visit(token.slot, token.ref);
     if (accel::is_leaf(token.ref))
       to_leaf_fetch.push(now, token);
     else
@@ -130,7 +130,7 @@ class Scheduler {
   SchedulerPolicy policy_;
   ArrivalQueue node_queue_, leaf_queue_;  // oldest
   SlotSet node_set_, leaf_set_;           // round-robin
-  std::array<accel::ChildRef, kMaxContexts> ref_of_{};
+  std::array<RefToken, kMaxContexts> token_of_{};
   int turn_ = 0;
   std::uint32_t arrivals_ = 0;
   std::uint64_t ready_ = 0, most_ready_ = 0, issued_ = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <type_traits>
 
 #include "model/pipeline/cache.h"
 #include "model/pipeline/tokens.h"
@@ -17,11 +18,13 @@ class SpanLines {
   using Done = DoneToken;
   static constexpr int kRounds = 1;
   static constexpr bool kMayNeedNone = false;
+  static constexpr bool kServesPackets = std::is_same_v<DoneToken, RefToken>;
 
   SpanLines(const UnitImage& image, int line_bytes)
       : image_(image), line_shift_(std::countr_zero(static_cast<unsigned>(line_bytes))) {}
 
   static Done done(const Token& token) { return {token.ref, token.slot}; }
+  static bool of_packet(const Token& token) { return token.of_packet; }
 
   /// Goes to the first line of the token; the bytes it asks for.
   std::uint64_t start(const Token& token) {

@@ -55,6 +55,7 @@ class TableLines {
   using Token = NodeToken;
   using Done = NodeToken;
   static constexpr int kRounds = 2;
+  static constexpr bool kServesPackets = false;
   static constexpr bool kMayNeedNone = true;
 
   TableLines(const UnitConfig& config, const cull::OnChipTables& tables, const UnitImage& image,

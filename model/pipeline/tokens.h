@@ -18,11 +18,34 @@ struct SlotToken {
   bool operator==(const SlotToken&) const = default;
 };
 
-/// The node or leaf that a ray visits next.
+/// The node or leaf that a ray visits next, or the node that its packet is asked about next.
 struct RefToken {
   accel::ChildRef ref = 0;
   Slot slot = 0;
+  bool of_packet = false;
   bool operator==(const RefToken&) const = default;
+};
+
+/// A ray whose registers are set up. `joins`: it is valid and travels with its packet; `closes`: it is the packet's
+/// last one.
+struct JoinToken {
+  Slot slot = 0;
+  bool joins = false, closes = false;
+  bool operator==(const JoinToken&) const = default;
+};
+
+/// A ray goes on alone from the entries of its packet; `last`: no other of this packet will come.
+struct StartToken {
+  Slot slot = 0;
+  std::uint8_t packet = 0;  ///< place in the packets' registers
+  bool last = false;
+  bool operator==(const StartToken&) const = default;
+};
+
+/// A packet's registers are free.
+struct PacketToken {
+  std::uint8_t packet = 0;
+  bool operator==(const PacketToken&) const = default;
 };
 
 /// A node visit on its way from the box test to the stack.

@@ -3,9 +3,11 @@
 //   in   sorted     surviving children of a node, nearest first
 //   in   leaf_done  rays whose leaf is finished
 //   in   refills    spilled entries that have come back
+//   in   starts     rays that begin with the entries of their packet
 //   out  to_scheduler  rays with their next reference
 //   out  to_result     rays whose stack is empty, or that are finished
 //   out  spills        writes of the oldest entries, reads of the youngest spilled ones
+//   out  released      packets whose last ray has begun
 //   One ray at a time. A token taken in cycle t is worked on from t + 1:
 //     s survivors: pushes up to push_width a cycle, farthest first; the nearest goes straight to the scheduler, in the
 //       cycle of the last push, so s <= push_width + 1 take one cycle. When the context's entries are full, the oldest
@@ -13,6 +15,8 @@
 //     none: pops one entry a cycle; those beyond the best hit are dropped, the first other one goes to the scheduler.
 //     When
 //       none is on chip but some are spilled, a batch is read back, and the ray waits aside while others are served.
+//     a ray that begins: pushes its packet's entries up to push_width a cycle, farthest first; the nearest is popped
+//       (or dropped) in the cycle of the last push, so e <= push_width + 1 entries take one cycle.
 //   The next token is taken in the last cycle of the one before. Inputs take turns.
 //   stalls: output_full, spill
 //
@@ -27,6 +31,7 @@
 #include "model/pipeline/event_log.h"
 #include "model/pipeline/link.h"
 #include "model/pipeline/memory_map.h"
+#include "model/pipeline/packets.h"
 #include "model/pipeline/unit_config.h"
 #include "model/pipeline/unit_image.h"
 
@@ -39,17 +44,21 @@ class TraversalStack {
   typename Wiring::template In<NodeToken> sorted;
   typename Wiring::template In<LeafDone> leaf_done;
   typename Wiring::template In<MemoryResponse> refills;
+  typename Wiring::template In<StartToken> starts;
   typename Wiring::template Out<RefToken> to_scheduler;
   typename Wiring::template Out<SlotToken> to_result;
   typename Wiring::template Out<MemoryRequest> spills;
+  typename Wiring::template Out<PacketToken> released;
 
   struct Counters {
     std::uint64_t pushes = 0, pops = 0, dropped = 0, spills = 0, refills = 0;
     int deepest = 0;
   };
 
-  TraversalStack(const UnitConfig& config, Contexts& contexts, Source& source, EventLog& log, const UnitImage& image)
+  TraversalStack(const UnitConfig& config, Contexts& contexts, const Packets& packets, Source& source, EventLog& log,
+                 const UnitImage& image)
       : contexts_(contexts),
+        packets_(packets),
         source_(source),
         log_(log),
         image_(image),
@@ -57,6 +66,7 @@ class TraversalStack {
         push_width_(config.stack.push_width),
         spill_batch_(config.stack.spill_batch),
         can_spill_(image.stack_bound() > config.stack.entries),
+        has_packets_(image.packet_entries() > 0),
         map_(config, image),
         bound_(static_cast<std::size_t>(image.stack_bound()) + 1),
         refs_(bound_ * static_cast<std::size_t>(contexts.count())) {}
@@ -82,8 +92,8 @@ class TraversalStack {
   Account account{kName, {Activity::OutputFull, Activity::Spill}};
 
  private:
-  enum class Job : std::uint8_t { None, Push, Pop, Finish };
-  static constexpr int kInputs = 3;
+  enum class Job : std::uint8_t { None, Push, Pop, Finish, Start };
+  static constexpr int kInputs = 4;
 
   accel::ChildRef& entry(Slot slot, int position) { return refs_[slot * bound_ + static_cast<std::size_t>(position)]; }
 
@@ -94,6 +104,8 @@ class TraversalStack {
         return push(now);
       case Job::Pop:
         return pop(now);
+      case Job::Start:
+        return start(now);
       default:
         return finish(now);
     }
@@ -119,6 +131,52 @@ class TraversalStack {
     source_.goes_to_child(slot_, order_ & 3);
     to_scheduler.push(now, {image_.child(node_, order_ & 3), slot_});
     job_ = Job::None;
+    return Activity::Busy;
+  }
+
+  /// The packet's entries come onto the stack as survivors do. The nearest one never needs a place there: it is popped
+  /// at once.
+  Activity start(Cycle now) {
+    Context& context = contexts_[slot_];
+    const reference::EntryList& entries = packets_[start_.packet].entries;
+    int pushed = 0;
+    for (; to_push_ > 0 && pushed < push_width_; ++pushed, --to_push_) {
+      if (context.depth - context.spilled == entries_) {
+        if (pushed > 0) return Activity::Busy;  // spills in the next cycle
+        return spill(now, context);
+      }
+      entry(slot_, context.depth) = entries[to_push_].ref;
+      source_.started(slot_, context.depth, entries[to_push_]);
+      ++context.depth;
+      ++counters_.pushes;
+    }
+    if (context.depth > counters_.deepest) counters_.deepest = context.depth;
+    if (to_push_ > 0) return Activity::Busy;
+    if (start_.last && !released.can_push(now)) return pushed > 0 ? Activity::Busy : Activity::OutputFull;
+    const Activity begun = start_nearest(now, entries);
+    if (begun != Activity::Busy) return pushed > 0 ? Activity::Busy : begun;
+    if (start_.last) released.push(now, {start_.packet});
+    return Activity::Busy;
+  }
+
+  Activity start_nearest(Cycle now, const reference::EntryList& entries) {
+    if (entries.count() == 0) return finish(now);
+    const int place = contexts_[slot_].depth;
+    if (!decided_) {
+      source_.started(slot_, place, entries[0]);
+      source_.begin_pop(slot_);
+      dropping_ = source_.drops(slot_, place);
+      decided_ = true;
+    }
+    if (dropping_) {
+      ++counters_.dropped;
+      job_ = Job::Pop;
+    } else {
+      if (!to_scheduler.can_push(now)) return Activity::OutputFull;
+      to_scheduler.push(now, {entries[0].ref, slot_});
+      job_ = Job::None;
+    }
+    decided_ = false;
     return Activity::Busy;
   }
 
@@ -174,7 +232,8 @@ class TraversalStack {
 
   bool take(Cycle now) {
     const unsigned offered = unsigned{sorted.can_pop(now)} | unsigned{leaf_done.can_pop(now)} << 1 |
-                             unsigned{can_spill_ && refills.can_pop(now)} << 2;
+                             unsigned{can_spill_ && refills.can_pop(now)} << 2 |
+                             unsigned{has_packets_ && starts.can_pop(now)} << 3;
     if (offered == 0) return false;
     const unsigned twice = offered | offered << kInputs;  // from turn_ on, going round
     const int input = (turn_ + std::countr_zero(twice >> turn_)) % kInputs;
@@ -193,6 +252,11 @@ class TraversalStack {
       leaf_done.pop(now);
       begin(now, token.slot, token.finished ? Job::Finish : Job::Pop);
       if (!token.finished) source_.begin_pop(slot_);
+    } else if (input == 3) {
+      start_ = starts.front();
+      starts.pop(now);
+      begin(now, start_.slot, Job::Start);
+      to_push_ = packets_[start_.packet].entries.count() - 1;
     } else {
       const auto slot = static_cast<Slot>(refills.front().id);
       refills.pop(now);
@@ -226,11 +290,12 @@ class TraversalStack {
   }
 
   Contexts& contexts_;
+  const Packets& packets_;
   Source& source_;
   EventLog& log_;
   const UnitImage& image_;
   int entries_, push_width_, spill_batch_;
-  bool can_spill_;
+  bool can_spill_, has_packets_;
   MemoryMap map_;
   std::size_t bound_;
   std::vector<accel::ChildRef> refs_;
@@ -242,6 +307,7 @@ class TraversalStack {
   int to_push_ = 0;  ///< survivors number 1 .. to_push_ are still to be pushed
   bool decided_ = false, dropping_ = false;
   int turn_ = 0;
+  StartToken start_;
   Counters counters_;
 };
 

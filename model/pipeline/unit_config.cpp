@@ -86,6 +86,20 @@ void add_front_end(Parameters& list) {
   list.push_back(integer(
       "ray_setup.interval", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.ray_setup.interval; },
       "Cycles between rays: six divisions on two pipelined dividers."));
+  const auto add_packets = [&](const char* key, const char* unit, Range range, auto field, const char* text) {
+    list.push_back(integer(std::string("packet_cull.") + key, unit, range, field, text));
+    list.back().new_since_hashes = true;
+  };
+  add_packets(
+      "packets", "packets", {1, 64}, [](auto& c) -> auto& { return c.packet_cull.packets; },
+      "Packets under way at once, the one that rays are joining included. Not there where rays do not travel in "
+      "packets, as the rest of packet_cull.");
+  add_packets(
+      "latency", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.packet_cull.latency; },
+      "A packet against the children of a node: subtract 4, multiply 4, compare tree 3, search 1.");
+  add_packets(
+      "interval", "cycles", {1, kMaxLatency}, [](auto& c) -> auto& { return c.packet_cull.interval; },
+      "Cycles between nodes: the four children one after the other on the arithmetic of one lane.");
   list.push_back(choice<SchedulerPolicy>(
       "scheduler.policy", {{"oldest", SchedulerPolicy::Oldest}, {"round-robin", SchedulerPolicy::RoundRobin}},
       [](auto& c) -> auto& { return c.scheduler.policy; },

@@ -53,6 +53,11 @@ struct UnitConfig {
     int interval = 3;
   } ray_setup;
   struct {
+    int packets = 8;
+    int latency = 12;
+    int interval = 4;
+  } packet_cull;  ///< only where rays travel in packets
+  struct {
     SchedulerPolicy policy = SchedulerPolicy::Oldest;
   } scheduler;
   CacheConfig node_cache, leaf_cache;

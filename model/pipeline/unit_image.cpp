@@ -6,7 +6,7 @@
 
 namespace ctu::pipeline {
 
-UnitImage::UnitImage(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic)
+UnitImage::UnitImage(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic, int packet_entries)
     : masked_nodes_(image.masked_nodes()),
       box_bits_(image.layout.box_bits),
       bare_base_(image.node_address(masked_nodes_)),
@@ -17,6 +17,7 @@ UnitImage::UnitImage(const accel::Image& image, const cull::MaskTester& tester, 
       triangle_stride_(image.triangle_stride_bytes),
       end_(image.bytes.size()),
       depth_(image.depth),
+      packet_entries_(packet_entries),
       lut_(tester.compression_lut()),
       mask_words_(static_cast<std::size_t>(cull::words_per_mask(tester.options().resolution))),
       children_(image.node_count),

@@ -20,8 +20,9 @@ struct ByteSpan {
 class UnitImage {
  public:
   /// The masks in the image are those that `tester` asks: R^3 bits, or where it has a compression LUT an index into it.
-  /// `arithmetic` false keeps only what replaying recorded outcomes needs.
-  UnitImage(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic);
+  /// `arithmetic` false keeps only what replaying recorded outcomes needs. `packet_entries`: with how many entries on
+  /// its stack a ray may begin; 0: rays travel alone.
+  UnitImage(const accel::Image& image, const cull::MaskTester& tester, bool arithmetic, int packet_entries = 0);
 
   ByteSpan node_bytes(std::uint32_t node) const {
     if (node < masked_nodes_) {
@@ -56,8 +57,11 @@ class UnitImage {
   bool primitive_boxes() const { return has_primitive_boxes_; }
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(children_.size()); }
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(primitives_.size()); }
-  /// Entries a ray's stack can hold at most when the nearest child never goes there: 3 for each level.
-  int stack_bound() const { return 3 * depth_; }
+  const std::array<accel::ChildRef, 4>& children(std::uint32_t node) const { return children_[node]; }
+  /// Entries a ray's stack can hold at most when the nearest child never goes there: 3 for each level, and those that
+  /// it begins with.
+  int stack_bound() const { return 3 * depth_ + packet_entries_; }
+  int packet_entries() const { return packet_entries_; }
   /// Bits of a coordinate of the boxes as they lie in memory; below 32 they are decoded before the box test.
   bool decodes_boxes() const { return box_bits_ != accel::kFullBoxBits; }
   std::uint32_t box_bits() const { return box_bits_; }
@@ -89,7 +93,7 @@ class UnitImage {
   std::uint32_t masked_nodes_ = 0, box_bits_ = accel::kFullBoxBits;
   std::uint64_t bare_base_ = 0, bare_stride_ = 0;
   std::uint64_t node_base_ = 0, node_stride_ = 0, triangle_base_ = 0, triangle_stride_ = 0, end_ = 0;
-  int depth_ = 0;
+  int depth_ = 0, packet_entries_ = 0;
   const cull::CompressionLut* lut_;
   std::size_t mask_words_;
   std::vector<std::array<accel::ChildRef, 4>> children_;

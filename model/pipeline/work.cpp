@@ -31,7 +31,13 @@ void check_fits(const UnitConfig& config, const Work& work) {
     throw Error("stack.spill_batch, memory.line_bytes",
                 "a batch of " + std::to_string(entry_bytes) + "-byte entries is larger than a line",
                 "choose a smaller batch, or a trace without primitive boxes");
-  if (3 * work.image.depth + 1 > kMaxStackEntries)
+  const reference::PacketPlan packets = work.rays.packets();
+  if (packets.size > config.unit.contexts)
+    throw Error("unit.contexts",
+                "packets of " + std::to_string(packets.size) + " rays never get whole in " +
+                    std::to_string(config.unit.contexts) + " contexts",
+                "give as many contexts as a packet has rays, or record smaller packets");
+  if (3 * work.image.depth + 1 + packets.most_entries > kMaxStackEntries)
     throw Error("image", "a tree of depth " + std::to_string(work.image.depth) + " needs more stack than a ray has",
                 "allow more triangles in a leaf");
 }

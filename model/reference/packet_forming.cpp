@@ -106,15 +106,39 @@ void check(const FormingOptions& options) {
                 "give at least the packet size");
 }
 
+namespace {
+
+/// The valid rays of the window that begins at `begin`, in the order in which they travel.
+std::vector<std::uint32_t> members_of_window(std::span<const Ray> rays, const FormingOptions& options,
+                                             std::size_t begin) {
+  std::vector<std::uint32_t> members;
+  for (std::size_t i = begin; i < std::min(begin + static_cast<std::size_t>(options.window), rays.size()); ++i)
+    if (intersect::is_valid(rays[i])) members.push_back(static_cast<std::uint32_t>(i));
+  sort_window(rays, options.forming, members);
+  return members;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> packet_order(std::span<const Ray> rays, const FormingOptions& options) {
+  check(options);
+  const auto window = static_cast<std::size_t>(options.window);
+  std::vector<std::uint32_t> order;
+  for (std::size_t begin = 0; begin < rays.size(); begin += window) {
+    const std::vector<std::uint32_t> members = members_of_window(rays, options, begin);
+    order.insert(order.end(), members.begin(), members.end());
+    for (std::size_t i = begin; i < std::min(begin + window, rays.size()); ++i)
+      if (!intersect::is_valid(rays[i])) order.push_back(static_cast<std::uint32_t>(i));
+  }
+  return order;
+}
+
 std::vector<std::vector<std::uint32_t>> form_packets(std::span<const Ray> rays, const FormingOptions& options) {
   check(options);
   const auto size = static_cast<std::size_t>(options.size), window = static_cast<std::size_t>(options.window);
   std::vector<std::vector<std::uint32_t>> packets;
   for (std::size_t begin = 0; begin < rays.size(); begin += window) {
-    std::vector<std::uint32_t> members;
-    for (std::size_t i = begin; i < std::min(begin + window, rays.size()); ++i)
-      if (intersect::is_valid(rays[i])) members.push_back(static_cast<std::uint32_t>(i));
-    sort_window(rays, options.forming, members);
+    const std::vector<std::uint32_t> members = members_of_window(rays, options, begin);
     for (std::size_t i = 0; i < members.size(); i += size)
       packets.emplace_back(members.begin() + static_cast<std::ptrdiff_t>(i),
                            members.begin() + static_cast<std::ptrdiff_t>(std::min(i + size, members.size())));

@@ -38,4 +38,8 @@ void check(const FormingOptions& options);
 std::vector<std::vector<std::uint32_t>> form_packets(std::span<const intersect::Ray> rays,
                                                      const FormingOptions& options);
 
+/// The same rays one after the other, packet after packet: all places of `rays`, those of rays that are not valid
+/// behind the others of their window.
+std::vector<std::uint32_t> packet_order(std::span<const intersect::Ray> rays, const FormingOptions& options);
+
 }  // namespace ctu::reference

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/intersect/ray.h"
+#include "model/reference/packet_list.h"
 #include "model/reference/step.h"
 
 namespace ctu::reference {
@@ -16,6 +17,7 @@ struct RayBlock {
   std::vector<intersect::Ray> rays;
   std::vector<intersect::Hit> expected;  ///< of the traversal without culling
   StepList steps;                        ///< empty when only rays are wanted (exec)
+  PacketList packets;                    ///< empty when the rays travel alone
 };
 
 /// Gives the blocks of a trace one after the other; null at the end.
@@ -24,6 +26,8 @@ class RayFeed {
   virtual ~RayFeed() = default;
   virtual std::shared_ptr<const RayBlock> next() = 0;
   virtual std::uint64_t total_rays() const = 0;
+  /// How the rays travel: alone, unless the feed says otherwise for all its blocks.
+  virtual PacketPlan packets() const { return {}; }
 };
 
 }  // namespace ctu::reference

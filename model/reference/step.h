@@ -46,6 +46,8 @@ struct StepList {
   std::vector<Step> steps;
   std::vector<std::uint32_t> keys;
   std::vector<std::uint16_t> met;
+  /// Of rays in packets only: nodes above the packet's entries that the ray visits when it walks alone.
+  std::vector<std::uint16_t> spared;
 
   std::uint64_t rays() const { return tail_dropped.size(); }
   void clear() { *this = StepList{}; }

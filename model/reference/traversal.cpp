@@ -26,8 +26,13 @@ struct StackEntryWithExit : StackEntry {
   float t1;
 };
 
-// Step::dropped counts in 8 bits, so no ray may ever hold more entries than that.
-constexpr int kMaxStackEntries = std::numeric_limits<std::uint8_t>::max();
+/// A finished ray is one more in the list.
+void close_ray(StepList& steps, std::uint8_t tail_dropped) {
+  steps.tail_dropped.push_back(tail_dropped);
+  steps.first_step.push_back(steps.steps.size());
+  steps.first_key.push_back(steps.keys.size());
+  steps.first_met.push_back(steps.met.size());
+}
 
 /// What ray boxes do in the leaves of a walk.
 enum class RayBoxes { None, CutAtHits, OncePerLeaf };
@@ -51,9 +56,12 @@ class Walk {
     best_ = known != nullptr ? *known : intersect::Hit{ray.tmax, 0, 0, intersect::kNoPrimitive};
   }
 
-  intersect::Hit run() {
+  /// From the root, or from a packet's entries.
+  intersect::Hit run(const EntryList* entries) {
     if (!ray_.valid) return best_;
-    push(0, ray_.ray.tmin, ray_.ray.tmax);
+    if (entries == nullptr) push(0, ray_.ray.tmin, ray_.ray.tmax);
+    for (int i = entries == nullptr ? 0 : entries->count(); i-- > 0;)
+      push((*entries)[i].ref, (*entries)[i].t0, ray_.ray.tmax);
     Entry at;
     while (pop(at)) {
       if (accel::is_leaf(at.ref)) {
@@ -169,13 +177,13 @@ struct Outcome {
   cull::RayBoxCounts box_counts;
 };
 
-/// Rays are walked with the boxes of `leaf_boxes`, or none.
+/// Rays are walked with the boxes of `leaf_boxes`, or none; from `entries` on, or the root.
 template <bool kRecord, RayBoxes kRayBoxes>
 Outcome walk(const NodeTest& test_node, const accel::PrimitiveBox* leaf_boxes, const intersect::Ray& ray,
-             StepList* steps, const intersect::Hit* known) {
+             StepList* steps, const intersect::Hit* known, const EntryList* entries) {
   const auto run = [&](auto spheres) {
     Walk<kRecord, spheres(), kRayBoxes> walk(test_node, leaf_boxes, ray, steps, known);
-    const intersect::Hit hit = walk.run();
+    const intersect::Hit hit = walk.run(entries);
     return Outcome{hit, walk.dropped(), walk.box_counts()};
   };
   return test_node.bvh().spheres != 0 ? run(std::true_type()) : run(std::false_type());
@@ -183,11 +191,12 @@ Outcome walk(const NodeTest& test_node, const accel::PrimitiveBox* leaf_boxes, c
 
 template <bool kRecord>
 Outcome walk(const NodeTest& test_node, const std::vector<accel::PrimitiveBox>* leaf_boxes, cull::RayBoxRule rule,
-             const intersect::Ray& ray, StepList* steps, const intersect::Hit* known) {
-  if (leaf_boxes == nullptr) return walk<kRecord, RayBoxes::None>(test_node, nullptr, ray, steps, known);
+             const intersect::Ray& ray, StepList* steps, const intersect::Hit* known,
+             const EntryList* entries = nullptr) {
+  if (leaf_boxes == nullptr) return walk<kRecord, RayBoxes::None>(test_node, nullptr, ray, steps, known, entries);
   if (rule == cull::RayBoxRule::CutAtHits)
-    return walk<kRecord, RayBoxes::CutAtHits>(test_node, leaf_boxes->data(), ray, steps, known);
-  return walk<kRecord, RayBoxes::OncePerLeaf>(test_node, leaf_boxes->data(), ray, steps, known);
+    return walk<kRecord, RayBoxes::CutAtHits>(test_node, leaf_boxes->data(), ray, steps, known, entries);
+  return walk<kRecord, RayBoxes::OncePerLeaf>(test_node, leaf_boxes->data(), ray, steps, known, entries);
 }
 
 }  // namespace
@@ -216,11 +225,13 @@ intersect::Hit Traversal::trace(const intersect::Ray& ray, StepList* steps, cons
   const Outcome outcome = steps == nullptr ? walk<false>(test_node_, leaf_boxes_, rule_, ray, nullptr, known)
                                            : walk<true>(test_node_, leaf_boxes_, rule_, ray, steps, known);
   if (box_counts != nullptr) *box_counts += outcome.box_counts;
-  if (steps == nullptr) return outcome.hit;
-  steps->tail_dropped.push_back(outcome.dropped);
-  steps->first_step.push_back(steps->steps.size());
-  steps->first_key.push_back(steps->keys.size());
-  steps->first_met.push_back(steps->met.size());
+  if (steps != nullptr) close_ray(*steps, outcome.dropped);
+  return outcome.hit;
+}
+
+intersect::Hit Traversal::trace_from(const EntryList& entries, const intersect::Ray& ray, StepList& steps) const {
+  const Outcome outcome = walk<true>(test_node_, leaf_boxes_, rule_, ray, &steps, nullptr, &entries);
+  close_ray(steps, outcome.dropped);
   return outcome.hit;
 }
 

@@ -1,6 +1,8 @@
 // Algorithm 4 of the paper: the untimed traversal with culling, the functional truth for the timed unit.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "model/accel/bvh4.h"
@@ -8,6 +10,7 @@
 #include "model/cull/leaf_culling.h"
 #include "model/cull/mask_test.h"
 #include "model/intersect/ray.h"
+#include "model/reference/entry_list.h"
 #include "model/reference/node_test.h"
 #include "model/reference/step.h"
 
@@ -28,6 +31,9 @@ class Traversal {
   intersect::Hit trace(const intersect::Ray& ray, StepList* steps = nullptr, const intersect::Hit* known = nullptr,
                        cull::RayBoxCounts* box_counts = nullptr) const;
 
+  /// The hit of a ray that goes on alone where its packet has left it, and its event sequence.
+  intersect::Hit trace_from(const EntryList& entries, const intersect::Ray& ray, StepList& steps) const;
+
  private:
   NodeTest test_node_;
   const std::vector<accel::PrimitiveBox>* leaf_boxes_;
@@ -36,6 +42,9 @@ class Traversal {
 
 /// The boxes of the primitives in leaf order, for ray-box culling.
 std::vector<accel::PrimitiveBox> leaf_boxes(const accel::Bvh4& bvh);
+
+/// No ray may ever hold more: Step::dropped counts in 8 bits.
+inline constexpr int kMaxStackEntries = std::numeric_limits<std::uint8_t>::max();
 
 /// Upper bound of stack entries any ray can need in this tree: 3 for each level above the last, and 1.
 int stack_bound(const accel::Bvh4& bvh);

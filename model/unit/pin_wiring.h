@@ -23,8 +23,15 @@ namespace ctu::pipeline {
 // sc_signal wants to print what it carries.
 inline std::ostream& operator<<(std::ostream& out, const SlotToken& t) { return out << "slot " << t.slot; }
 inline std::ostream& operator<<(std::ostream& out, const RefToken& t) {
-  return out << "slot " << t.slot << " ref " << t.ref;
+  return out << "slot " << t.slot << " ref " << t.ref << (t.of_packet ? " of packet" : "");
 }
+inline std::ostream& operator<<(std::ostream& out, const JoinToken& t) {
+  return out << "slot " << t.slot << (t.joins ? " joins" : "") << (t.closes ? " closes" : "");
+}
+inline std::ostream& operator<<(std::ostream& out, const StartToken& t) {
+  return out << "slot " << t.slot << " packet " << int{t.packet} << (t.last ? " last" : "");
+}
+inline std::ostream& operator<<(std::ostream& out, const PacketToken& t) { return out << "packet " << int{t.packet}; }
 inline std::ostream& operator<<(std::ostream& out, const LeafToken& t) {
   return out << "slot " << t.slot << " ref " << t.ref << " met " << t.met;
 }

@@ -33,8 +33,10 @@ template <class Token>
 pipeline::Slot slot_of(const Token& token) {
   if constexpr (requires { token.slot; })
     return token.slot;
-  else
+  else if constexpr (requires { token.id; })
     return token.id;
+  else
+    return token.packet;
 }
 
 template <class Out, class In>

@@ -28,6 +28,21 @@ inline TokenBits bits_of(const pipeline::LeafToken& token, const TokenWidths& wi
   BitWriter(bits.data()).put(token.ref, 32).put(token.met, 16).put(token.slot, widths.slot);
   return bits;
 }
+inline TokenBits bits_of(const pipeline::JoinToken& token, const TokenWidths& widths) {
+  TokenBits bits{};
+  BitWriter(bits.data()).put(token.closes, 1).put(token.joins, 1).put(token.slot, widths.slot);
+  return bits;
+}
+inline TokenBits bits_of(const pipeline::StartToken& token, const TokenWidths& widths) {
+  TokenBits bits{};
+  BitWriter(bits.data()).put(token.last, 1).put(token.packet, 6).put(token.slot, widths.slot);
+  return bits;
+}
+inline TokenBits bits_of(const pipeline::PacketToken& token, const TokenWidths&) {
+  TokenBits bits{};
+  BitWriter(bits.data()).put(token.packet, 6);
+  return bits;
+}
 inline TokenBits bits_of(const pipeline::RefToken& token, const TokenWidths& widths) {
   TokenBits bits{};
   BitWriter(bits.data()).put(token.ref, 32).put(token.slot, widths.slot);

@@ -7,6 +7,7 @@
 #include "model/cull/compress.h"
 #include "model/cull/object_masks.h"
 #include "model/pipeline/backpressure.h"
+#include "model/reference/packet_walk.h"
 #include "model/reference/traversal.h"
 #include "model/scene/load.h"
 #include "tests/oracle/seed.h"
@@ -138,7 +139,24 @@ void World::forget_steps() {
   for (auto& block : blocks_) {
     auto bare = std::make_shared<reference::RayBlock>(*block);
     bare->steps.clear();
+    bare->packets.visits.clear();
+    bare->packets.entries.clear();
+    bare->packets.first_visit = bare->packets.first_entry = {0};
     block = std::move(bare);
+  }
+}
+
+void World::travel_in(const reference::PacketPlan& packets) {
+  packets_ = packets;
+  const reference::Traversal traversal(tree_, &masks_, tester_);
+  for (auto& block : blocks_) {
+    auto travelling = std::make_shared<reference::RayBlock>(*block);
+    travelling->steps.clear();
+    travelling->packets = reference::cut_packets(static_cast<std::uint32_t>(block->rays.size()), packets.size);
+    const reference::PacketWalk walk(tree_, packets, travelling->rays, travelling->packets);
+    walk.trace(traversal, travelling->steps);
+    travelling->packets = walk.list();
+    block = std::move(travelling);
   }
 }
 
@@ -150,7 +168,7 @@ pipeline::UnitConfig World::config() const {
 
 std::unique_ptr<pipeline::Engine> World::engine(const pipeline::UnitConfig& config,
                                                 const pipeline::EngineOptions& options) {
-  feeds_.push_back(std::make_unique<VectorFeed>(blocks_));
+  feeds_.push_back(std::make_unique<VectorFeed>(blocks_, packets_));
   return pipeline::make_engine(config, {image_, tester_, *feeds_.back()}, options);
 }
 

@@ -17,14 +17,18 @@ namespace ctu::test {
 
 class VectorFeed : public reference::RayFeed {
  public:
-  explicit VectorFeed(const std::vector<std::shared_ptr<const reference::RayBlock>>& blocks) : blocks_(blocks) {}
+  explicit VectorFeed(const std::vector<std::shared_ptr<const reference::RayBlock>>& blocks,
+                      const reference::PacketPlan& packets = {})
+      : blocks_(blocks), packets_(packets) {}
   std::shared_ptr<const reference::RayBlock> next() override {
     return next_ < blocks_.size() ? blocks_[next_++] : nullptr;
   }
   std::uint64_t total_rays() const override;
+  reference::PacketPlan packets() const override { return packets_; }
 
  private:
   const std::vector<std::shared_ptr<const reference::RayBlock>>& blocks_;
+  reference::PacketPlan packets_;
   std::size_t next_ = 0;
 };
 
@@ -53,6 +57,8 @@ class World {
   std::uint64_t rays() const { return rays_; }
   /// The same rays without their recorded steps.
   void forget_steps();
+  /// The same rays in packets. What the unit must return stays what they find alone.
+  void travel_in(const reference::PacketPlan& packets);
 
  private:
   accel::Image make_image(std::uint32_t box_bits, bool primitive_boxes) const;
@@ -66,6 +72,7 @@ class World {
   std::vector<std::shared_ptr<const reference::RayBlock>> blocks_;
   std::vector<std::unique_ptr<VectorFeed>> feeds_;
   std::uint64_t rays_ = 0;
+  reference::PacketPlan packets_;
 };
 
 /// Adds balls of all sizes up to a tenth of the mesh, a point among them.

@@ -339,6 +339,68 @@ TEST_F(CommandTest, a_resolution_whose_table_is_too_large_is_recorded_all_the_sa
   expect_refused("run fine.ctut --engine reference --set mask_test.design=mask-lut", "ray-mask table");
 }
 
+TEST_F(CommandTest, rays_in_packets_find_the_same_hits_with_every_engine_and_source_and_say_what_they_saved) {
+  const std::string scene = "record 'gen:tilted-quads?quads=300' --size 40x40 --rays primary -o ";
+  ASSERT_EQ(ctusim(scene + "alone.ctut").exit_code, 0);
+  const Outcome recorded =
+      ctusim(scene + "together.ctut --packets 8 --packet-entries 2 --packet-forming direction --packet-window 64");
+  ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+  EXPECT_NE(recorded.out.find("200 packets"), std::string::npos) << recorded.out;
+  const Outcome info = ctusim("trace info together.ctut");
+  EXPECT_NE(info.out.find("of 8 rays, up to 2 entries; rays of a window of 64 by direction"), std::string::npos)
+      << info.out;
+  EXPECT_NE(ctusim("trace head together.ctut --rays 8").out.find("packet of 8 rays"), std::string::npos);
+  for (const std::string design : {"none", "projection", "comparators"}) {
+    std::map<std::string, json> results;
+    for (const std::string run : {"alone", "together", "together --source exec", "together --engine reference",
+                                  "together --mode pins", "together --first 5 --rays 1001"}) {
+      const std::string trace = run.substr(0, run.find(' ')), rest = run.substr(trace.size());
+      const Outcome outcome =
+          ctusim("run " + trace + ".ctut --json r.json" + rest + " --set mask_test.design=" + design);
+      ASSERT_EQ(outcome.exit_code, 0) << run << outcome.err;
+      results[run] = json::parse(read_text(file("r.json")));
+      EXPECT_EQ(results[run]["wrong_hits"], 0) << run;
+    }
+    EXPECT_EQ(results["together"]["event_log_hash"], results["together --source exec"]["event_log_hash"]) << design;
+    EXPECT_EQ(results["together"]["event_log_hash"], results["together --mode pins"]["event_log_hash"]) << design;
+    EXPECT_EQ(results["together"]["intersections_per_ray"],
+              results["together --engine reference"]["intersections_per_ray"]);
+    EXPECT_LT(results["together"]["intersections_per_ray"], results["alone"]["intersections_per_ray"]);
+    std::map<std::string, long> counters;
+    for (const json& counter : results["together"]["counters"]) counters[counter["name"]] = counter["value"];
+    EXPECT_EQ(counters["packets.packets"], 200);
+    EXPECT_GT(counters["packets.node_tests_saved"], counters["packets.node_visits"]);
+    for (const json& counter : results["alone"]["counters"])
+      EXPECT_FALSE(counter["name"].get<std::string>().starts_with("packets."));
+  }
+  expect_refused("run together.ctut --set unit.contexts=7", "unit.contexts");
+  expect_refused("run together.ctut --set packet_cull.packets=0", "packet_cull.packets");
+  for (const std::string engine : {"rtl", "both"})
+    expect_refused("run together.ctut --engine " + engine, "packet_cull");
+  expect_refused("trace slice together.ctut -o x.ctut --first 5 --rays 16", "cut a packet in two");
+  EXPECT_EQ(ctusim("trace slice together.ctut -o part.ctut --first 8 --rays 16").exit_code, 0);
+  EXPECT_EQ(ctusim("run part.ctut").exit_code, 0);
+}
+
+TEST_F(CommandTest, a_survey_of_packets_has_a_row_for_the_rays_alone_and_one_for_each_size_and_number_of_entries) {
+  const Outcome table = ctusim(
+      "packets 'gen:tilted-quads?quads=200' --size 24x24 --rays primary --packets 4,16 --packet-entries 1,3 "
+      "--markdown");
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.out.find("128 contexts, 8 packets under way, mask test projection; packets by order"),
+            std::string::npos)
+      << table.out;
+  std::size_t rows = 0;
+  for (std::size_t at = table.out.find("| primary |"); at != std::string::npos;
+       at = table.out.find("| primary |", at + 1))
+    ++rows;
+  EXPECT_EQ(rows, 5u) << table.out;
+  for (const char* cells : {"| primary | - | - |", "| primary | 4 | 1 |", "| primary | 16 | 3 |"})
+    EXPECT_NE(table.out.find(cells), std::string::npos) << cells << table.out;
+  const Outcome few = ctusim("packets gen:tetra --size 8x8 --rays all --packets 8 --packet-entries 2 --sample 200");
+  EXPECT_EQ(few.exit_code, 0) << few.err;
+}
+
 TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("run missing.ctut", "missing.ctut");
   expect_refused("run hair.ctut --set mask_test.desing=none", "mask_test.design");
@@ -389,6 +451,20 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("record gen:hair-ball -o x.ctut --box-bits 10", "--box-bits");
   expect_refused("precision gen:hair-ball --box-bits 32,", "--box-bits");
   expect_refused("record gen:hair-ball -o x.ctut --triangle-align 0", "--triangle-align");
+  expect_refused("record gen:hair-ball -o x.ctut --packets 3", "packets");
+  expect_refused("record gen:hair-ball -o x.ctut --packets 65", "packets");
+  expect_refused("record gen:hair-ball -o x.ctut --packets -8", "packets");
+  expect_refused("record gen:hair-ball -o x.ctut --packets 8 --packet-entries 0", "packet entries");
+  expect_refused("record gen:hair-ball -o x.ctut --packets 8 --packet-entries 17", "packet entries");
+  expect_refused("record gen:hair-ball -o x.ctut --packets 8 --packet-forming size", "--packet-forming");
+  expect_refused("record gen:hair-ball -o x.ctut --packets 8 --packet-window 7", "packet window");
+  expect_refused("record gen:hair-ball -o x.ctut --packets 8 --culling auto", "--packets");
+  expect_refused("record gen:hair-ball -o x.ctut --packet-entries 2", "--packets");
+  expect_refused("packets gen:hair-ball --packets 8,", "--packets");
+  expect_refused("packets gen:hair-ball --packets 2", "packet size");
+  expect_refused("packets gen:hair-ball --packet-entries 17", "packet entries");
+  expect_refused("packets gen:hair-ball --packet-forming size", "--packet-forming");
+  expect_refused("packets gen:hair-ball --packets 64 --set unit.contexts=63", "more than the unit's 63 contexts");
   expect_refused("record gen:hair-ball -o x.ctut --culling off --strip-full", "--strip-full");
   expect_refused("record gen:hair-ball -o x.ctut --culling maybe", "--culling");
   expect_refused("record gen:hair-ball -o x.ctut --culling off --designs none,mask-lut", "--designs");

@@ -74,7 +74,7 @@ Content read_all(const std::string& path) {
     for (const DesignCounts& design : reader.manifest().designs) {
       if (!design.stored) continue;
       content.blocks.push_back(reader.read_block(block, design.design));
-      validate_block(content.blocks.back(), bvh, reader.manifest().masks, path);
+      validate_block(content.blocks.back(), bvh, reader.manifest().masks, path, reader.manifest().packets.plan);
     }
   }
   return content;
@@ -108,7 +108,7 @@ bool same_steps(const reference::StepList& a, const reference::StepList& b) {
 bool same(const Content& a, const Content& b) {
   const auto same_block = [](const reference::RayBlock& x, const reference::RayBlock& y) {
     return x.first_ray == y.first_ray && same_rays(x.rays, y.rays) && same_hits(x.expected, y.expected) &&
-           same_steps(x.steps, y.steps);
+           same_steps(x.steps, y.steps) && x.packets == y.packets;
   };
   return a.hash == b.hash && a.image == b.image &&
          std::equal(a.blocks.begin(), a.blocks.end(), b.blocks.begin(), b.blocks.end(), same_block);

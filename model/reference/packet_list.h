@@ -1,0 +1,55 @@
+// The packets of consecutive rays and what each did before its rays went on alone: a function of the rays, the image
+// and the most entries a packet may have, whatever the culling design (contract 3).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "model/accel/child_ref.h"
+
+namespace ctu::reference {
+
+/// How rays are made packets.
+struct PacketPlan {
+  int size = 0;          ///< consecutive rays, kLeastPacket .. kMostPacket; 0: there are no packets
+  int most_entries = 0;  ///< 1 .. kMostEntries
+
+  bool any() const { return size != 0; }
+  bool operator==(const PacketPlan&) const = default;
+};
+
+/// A packet was asked about the children of a node.
+struct PacketVisit {
+  std::uint32_t node = 0;
+  std::uint8_t hit = 0;  ///< bit lane: some ray may meet the child
+  bool operator==(const PacketVisit&) const = default;
+};
+
+/// Of packet p: rays [first_ray[p], first_ray[p+1]) of their block, not all of them valid; visits and entries likewise,
+/// these nearest first. Where only rays are wanted visits and entries are empty.
+struct PacketList {
+  std::vector<std::uint32_t> first_ray{0};
+  std::vector<std::uint64_t> first_visit{0}, first_entry{0};
+  std::vector<PacketVisit> visits;
+  std::vector<accel::ChildRef> entries;
+
+  std::uint64_t packets() const { return first_ray.size() - 1; }
+  bool walked() const { return first_visit.size() == first_ray.size(); }
+  /// The packet that ray `ray` is in.
+  std::uint64_t packet_of(std::uint64_t ray) const {
+    return static_cast<std::uint64_t>(std::upper_bound(first_ray.begin(), first_ray.end(), ray) - first_ray.begin()) -
+           1;
+  }
+  bool operator==(const PacketList&) const = default;
+};
+
+/// `rays` consecutive rays in packets of `size`, the last one smaller where it does not come out even; not walked.
+inline PacketList cut_packets(std::uint32_t rays, int size) {
+  PacketList list;
+  for (std::uint32_t end = 0; end < rays;)
+    list.first_ray.push_back(end = std::min(rays, end + static_cast<std::uint32_t>(size)));
+  return list;
+}
+
+}  // namespace ctu::reference
