@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md and docs/numerics.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper packets raybox leaves variants compression precision tables designs area numerics raydist; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox leaves variants compression precision tables designs area numerics raydist)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist)
 
 page=docs/results.md
 plots=docs/plots
@@ -213,8 +213,27 @@ leaf_row() {  # LABEL SCENE LEAF
     NR == 2 { printf "| %s | %s | %.2f | %.2f | %.2f | %.2f | %+.1f %% |\n", label, leaf, tests, $5, cycles, $6, 100 * ($6 / cycles - 1) }'
 }
 
+# Rows: a scene of large leaves, with a triangle tester that takes a primitive every so many cycles.
+interval_rows() {  # LABEL SCENE
+  local boxes interval cycles
+  for boxes in "" --primitive-boxes; do
+    # shellcheck disable=SC2086
+    keep log "$program" record "$2" -o "$scratch/leaf$boxes.ctut" --size 120x68 --rays diffuse --leaf 15 --triangle-cost 0.1 \
+      --designs mask-lut $boxes
+  done
+  for interval in 1 2 4 8; do
+    cycles=
+    for boxes in "" --primitive-boxes; do
+      keep run "$program" run "$scratch/leaf$boxes.ctut" --set "triangle_test.interval=$interval"
+      cycles+=" $(awk '/^cycles per ray / { print $4 }' "$scratch/run")"
+    done
+    awk -v label="$1" -v interval="$interval" '
+      { printf "| %s | %d | %.2f | %.2f | %+.1f %% |\n", label, interval, $1, $2, 100 * ($2 / $1 - 1) }' <<<"$cycles"
+  done
+}
+
 leaves() {
-  local name path leaf
+  local name path leaf kitchen
   {
     echo "| scene | primitives in a leaf, at most | intersections/ray | with ray boxes | cycles/ray | with ray boxes | change |"
     echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"
@@ -228,6 +247,42 @@ leaves() {
     done
   } >"$scratch/leaves"
   put leaves
+  {
+    echo "| scene | cycles between primitives | cycles/ray | with ray boxes | change |"
+    echo "| --- | ---: | ---: | ---: | ---: |"
+    interval_rows gen:balls gen:balls
+    interval_rows gen:hair-ball gen:hair-ball
+    kitchen=$(awk '$1 == "kitchen" { print $2 }' "$index")
+    [ -z "$kitchen" ] || interval_rows kitchen "$(dirname "$index")/$kitchen"
+  } >"$scratch/leaves-interval"
+  put leaves-interval
+}
+
+# One row: a scene with masks, ray boxes and packets at once, the hits those without any of them.
+together_row() {  # LABEL SCENE
+  keep log "$program" record "$2" -o "$scratch/together.ctut" --size 96x54 --rays diffuse --leaf 8 --triangle-cost 0.3 \
+    --designs mask-lut --primitive-boxes --packets 16 --packet-forming origin
+  keep run "$program" run "$scratch/together.ctut"
+  awk -v label="$1" '
+    /^rays / { rays = $2 }
+    /^wrong hits / { wrong = $3 }
+    /^culled share / { boxes = $3 * $6 / 100 }
+    /^saved by ray boxes / { tests = $5 }
+    /^packets.node_tests_saved / { nodes = $2 }
+    /^cycles per ray / { cycles = $4 }
+    END { printf "| %s | %d | %d | %.2f | %.2f | %.2f | %.2f |\n", label, rays, wrong, boxes / rays, tests / rays, nodes / rays, cycles }' \
+    "$scratch/run"
+}
+
+together() {
+  local name path scene
+  {
+    echo "| scene | rays | wrong hits | boxes culled by masks, a ray | primitive tests saved by ray boxes | box tests of four saved by packets | cycles/ray |"
+    echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"
+    for scene in hair-ball curly-hair straight-hair tilted-quads foliage tetra balls; do together_row "gen:$scene" "gen:$scene"; done
+    while read -r name path; do together_row "$name" "$(dirname "$index")/$path"; done <"$index"
+  } >"$scratch/together"
+  put together
 }
 
 # One row: what decide says of all scenes for a unit, at a small size.
@@ -368,8 +423,8 @@ raydist() {
 
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | packets | raybox | leaves | variants | designs | tables | compression | precision | area | numerics | raydist) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, packets, raybox, leaves, variants, designs, tables, compression, precision, area, numerics or raydist" >&2; exit 2 ;;
+    culling | auto | paper | packets | raybox | leaves | together | variants | designs | tables | compression | precision | area | numerics | raydist) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, packets, raybox, leaves, together, variants, designs, tables, compression, precision, area, numerics or raydist" >&2; exit 2 ;;
   esac
 done
 exit "$failed"
