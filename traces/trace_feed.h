@@ -39,6 +39,7 @@ class TraceFeed : public reference::RayFeed {
 
  private:
   void walk(reference::RayBlock& block) const;
+  void refuse_any_hits(const reference::RayBlock& block) const;
 
   const TraceReader& reader_;
   RayRange range_;
