@@ -146,7 +146,7 @@ void add_record(CLI::App& app, Parsed& parsed) {
       ->add_option("--packets", parsed.record.packets, "rays that enter the tree together, 4 to 64; 0: every ray alone")
       ->capture_default_str();
   command->add_option("--packet-entries", parsed.record.packet_entries,
-                      "places where a packet's rays go on alone, at most; 1 to 16 [4]");
+                      "places where a packet's rays go on alone, at most; 1 to 16 [8]");
   command->add_option(
       "--packet-forming", parsed.record.packet_forming,
       "which rays travel together: in the order in which they come, or those of a window by direction or "

@@ -53,7 +53,7 @@ void judge(const scene::Scene& scene, const RaySample& sample, SampleFeed& feed,
         reference::PacketWalk(bvh, run.plan, block->rays, block->packets).trace(traversal, steps);
     for (std::size_t i = 0; i < hits.size(); ++i) {
       const std::size_t ray = block->first_ray + i;
-      if (intersect::same_bits(hits[i], sample.hits[ray])) continue;
+      if (intersect::same_bits(hits[i], block->expected[i])) continue;
       const Verdict verdict = judge.judge(sample.rays[ray], sample.hits[ray], hits[i]);
       ++(verdict == Verdict::Lost ? run.lost : verdict == Verdict::NearMiss ? run.near_misses : run.ties);
     }

@@ -93,7 +93,7 @@ std::shared_ptr<const reference::RayBlock> SampleFeed::next() {
   if (packets_.any()) {
     const auto rays = static_cast<std::uint32_t>(block->rays.size());
     const reference::PacketWalk walk(bvh_, packets_, block->rays, reference::cut_packets(rays, packets_.size));
-    walk.trace(traversal_, block->steps);
+    reference::expect_from_entries(block->rays, walk.trace(traversal_, block->steps), block->expected);
     block->packets = walk.list();
   }
   return block;

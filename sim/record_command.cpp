@@ -18,7 +18,7 @@
 namespace ctu::sim {
 namespace {
 
-constexpr int kPacketEntries = 4;  // where nobody says otherwise
+constexpr int kPacketEntries = 8;  // where nobody says otherwise
 
 void print_designs(const std::vector<traces::DesignCounts>& designs) {
   double base = 0;
@@ -72,7 +72,8 @@ void print_packet(const reference::RayBlock& block, std::size_t ray) {
   if (list.first_ray[p] != ray) return;
   fmt::print("  packet of {} rays\n", list.first_ray[p + 1] - list.first_ray[p]);
   for (std::uint64_t i = list.first_visit[p]; i < list.first_visit[p + 1]; ++i)
-    fmt::print("    node  {:<9} some meet {:04b}\n", list.visits[i].node, list.visits[i].hit);
+    fmt::print("    node  {:<9} some meet {:04b} all meet {:04b}\n", list.visits[i].node, list.visits[i].hit(),
+               list.visits[i].sure());
   for (std::uint64_t i = list.first_entry[p]; i < list.first_entry[p + 1]; ++i)
     fmt::print("    entry {}\n", list.entries[i]);
 }

@@ -107,7 +107,7 @@ Section packets_section() {
            {"visits", "u16", Per::Packet, "nodes", "nodes that the packet was asked about"},
            {"entries", "u8", Per::Packet, "nodes", "places where its rays go on alone"},
            {"node", "u32", Per::Visit, "", "node, as in the image's child references"},
-           {"hit", "u8", Per::Visit, "", "bit lane: some ray may meet the child"},
+           {"lanes", "u8", Per::Visit, "", "children that some ray may meet | that every ray meets << 4"},
            {"entry", "u32", Per::Entry, "", "node, nearest first"}}};
 }
 

@@ -128,6 +128,8 @@ class BlockTracer {
       rays = reordered(rays, order), hits = reordered(hits, order);
       packets.emplace(bvh_, packets_.plan, rays,
                       reference::cut_packets(static_cast<std::uint32_t>(rays.size()), packets_.plan.size));
+      StepList unused;
+      reference::expect_from_entries(rays, packets->trace(expected_, unused), hits);
       outcome.packets = packets->list().packets();
       outcome.packet_visits = packets->list().visits.size();
       outcome.packet_entries = packets->list().entries.size();

@@ -84,16 +84,27 @@ std::shared_ptr<const reference::RayBlock> TraceFeed::next() {
   if (steps_of_) validate_block(*block, *bvh_, reader_.manifest().masks, reader_.path(), packets());
   const std::uint64_t last = std::min(end, range_.last);
   if (next_ray_ != start || last != end) *block = part_of(*block, next_ray_ - start, last - start);
-  if (traversal_ && (!steps_of_ || !block->packets.walked())) walk(*block);
+  const bool cuts = packets().any() && !block->packets.walked();
+  if (cuts && !traversal_) refuse_any_hits(*block);
+  if (traversal_ && (!steps_of_ || cuts)) walk(*block);
   next_ray_ = last;
   return block;
+}
+
+/// Of a packet that the range has made smaller it is not known which hit an any-hit ray comes to first.
+void TraceFeed::refuse_any_hits(const reference::RayBlock& block) const {
+  for (const intersect::Ray& ray : block.rays)
+    if (ray.kind == intersect::RayKind::AnyHit)
+      throw Error(reader_.path(),
+                  fmt::format("rays {} to {} cut a packet of any-hit rays in two", range_.first, range_.last - 1),
+                  fmt::format("begin and end at multiples of {} rays, or replay the steps", packets().size));
 }
 
 void TraceFeed::walk(reference::RayBlock& block) const {
   block.steps.clear();
   if (packets().any()) {
     const reference::PacketWalk walk(*bvh_, packets(), block.rays, block.packets);
-    walk.trace(*traversal_, block.steps);
+    reference::expect_from_entries(block.rays, walk.trace(*traversal_, block.steps), block.expected);
     block.packets = walk.list();
   } else {
     for (const intersect::Ray& ray : block.rays) traversal_->trace(ray, &block.steps);

@@ -43,6 +43,7 @@ class TraceFeed : public reference::RayFeed {
  private:
   void walk_with(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, const cull::MaskTester& tester);
   void walk(reference::RayBlock& block) const;
+  void refuse_any_hits(const reference::RayBlock& block) const;
 
   const TraceReader& reader_;
   RayRange range_;

@@ -308,8 +308,8 @@ void TraceReader::read_packets(ColumnDecoder& decoder, std::uint64_t block, refe
   }
   const std::uint64_t visits = list.first_visit.back();
   const auto node = read_column<std::uint32_t>(decoder, section, "node", block, visits);
-  const auto hit = read_column<std::uint8_t>(decoder, section, "hit", block, visits);
-  for (std::uint64_t i = 0; i < visits; ++i) list.visits.push_back({node[i], hit[i]});
+  const auto lanes = read_column<std::uint8_t>(decoder, section, "lanes", block, visits);
+  for (std::uint64_t i = 0; i < visits; ++i) list.visits.push_back({node[i], lanes[i]});
   list.entries = read_column<std::uint32_t>(decoder, section, "entry", block, list.first_entry.back());
 }
 

@@ -88,7 +88,7 @@ void encode_packets(ColumnSink sink, const reference::PacketList& list) {
   sink.add(counts_of<std::uint16_t>(list.first_visit));
   sink.add(counts_of<std::uint8_t>(list.first_entry));
   sink.add<std::uint32_t>(list.visits, [](const PacketVisit& visit) { return visit.node; });
-  sink.add<std::uint8_t>(list.visits, [](const PacketVisit& visit) { return visit.hit; });
+  sink.add<std::uint8_t>(list.visits, [](const PacketVisit& visit) { return visit.lanes; });
   sink.add(list.entries);
 }
 

@@ -81,10 +81,11 @@ class Follower {
           refuse("its packet does not visit what it must");
         const accel::Node4& node = bvh_.nodes[search.node()];
         const reference::Children children{node.child[0], node.child[1], node.child[2], node.child[3]};
-        const unsigned hit = list.visits[visit].hit;
+        const unsigned hit = list.visits[visit].hit(), sure = list.visits[visit].sure();
         if ((hit & ~reference::lanes_of(children)) != 0) refuse("its packet meets an empty lane");
+        if ((sure & ~hit) != 0) refuse("all rays of its packet meet what none may meet");
         constexpr float kAnyTime[4] = {};
-        search.answer(children, hit, kAnyTime);
+        search.answer(children, hit, sure, kAnyTime);
       }
     if (visit != list.first_visit[packet + 1]) refuse("its packet visits more than it may");
     check_entries(list, packet, search.entries());

@@ -64,7 +64,8 @@ cull::packet::PacketTimes ExecSource::packet_test(int packet, std::uint32_t node
   if (r.block == nullptr) return times;
   const reference::PacketList& list = r.block->packets;
   const std::uint64_t visit = list.first_visit[r.number] + r.visits++;
-  if (visit >= list.first_visit[r.number + 1] || !(list.visits[visit] == reference::PacketVisit{node, times.hit}))
+  if (visit >= list.first_visit[r.number + 1] ||
+      !(list.visits[visit] == reference::PacketVisit{node, static_cast<std::uint8_t>(times.hit | times.sure << 4)}))
     ++event_mismatches_;
   return times;
 }

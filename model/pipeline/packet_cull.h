@@ -150,13 +150,13 @@ class PacketCull {
     const reference::Children children = image_.children(node);
     const cull::packet::PacketTimes times = source_.packet_test(number, node);
     const unsigned there = reference::lanes_of(children);
-    const bool stays = packet.search.answer(children, times.hit, times.t0);
+    const bool stays = packet.search.answer(children, times.hit, times.sure, times.t0);
     log_.add({now,
               contexts_[packet.leader()].ray,
               packet.visits++,
               false,
               {node, 0, static_cast<std::uint8_t>(there | unsigned{times.hit} << 4),
-               static_cast<std::uint16_t>(kOfPacket | unsigned{stays})}});
+               static_cast<std::uint16_t>(kOfPacket | unsigned{times.sure} << 4 | unsigned{stays})}});
     ++counters_.visits;
     counters_.dropped += static_cast<unsigned>(std::popcount(there & ~unsigned{times.hit}));
     if (packet.search.done())

@@ -56,7 +56,7 @@ class ReplaySource {
   }
   void join_packet(int, Slot) {}
   float packet_begins(int) const { return 0; }
-  /// The children of `node` that some ray of the packet may meet; the times are not needed.
+  /// The children of `node` that some ray of the packet may meet, or every ray does; the times are not needed.
   cull::packet::PacketTimes packet_test(int packet, std::uint32_t node) {
     PacketRegisters& r = packets_[static_cast<std::size_t>(packet)];
     const reference::PacketList& list = r.block->packets;
@@ -65,7 +65,8 @@ class ReplaySource {
       throw_event_mismatch(contexts_[r.leader],
                            "its packet visits " + std::to_string(node) + ", which is not recorded");
     cull::packet::PacketTimes times;
-    times.hit = list.visits[visit].hit;
+    times.hit = static_cast<std::uint8_t>(list.visits[visit].hit());
+    times.sure = static_cast<std::uint8_t>(list.visits[visit].sure());
     return times;
   }
   /// Where the packet's rays go on, nearest first.

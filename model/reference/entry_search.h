@@ -1,9 +1,12 @@
 // The search for the places where the rays of a packet go on alone: the top of the tree, walked once for all of them.
 //
 // A first-in first-out queue of nodes begins with the root. The packet is asked about the children of the node at its
-// head. Those that some ray may meet take the node's place, if queue and entries then hold no more than `most_entries`
-// and none of them is a leaf; else the node becomes an entry. A node whose children all rays miss is dropped for all.
+// head. Those that some ray may meet take the node's place, if none of them is a leaf, if all of them but one at most
+// are met by every ray, and if queue and entries then hold no more than `most_entries`; else the node becomes an entry.
+// A node whose children all rays miss is dropped for all.
 //
+// Why at most one in doubt: a ray that comes to the node alone asks for it, and then for those children that it meets.
+// From the children's entries it asks for all of them. So it asks for no more when it misses one of them at most.
 // Why nothing is lost: queue and entries together always cover every leaf that a ray of the packet can meet. Why leaves
 // are no entries themselves: so each ray asks for its own box before it tests a leaf, and tests none that it would not
 // test alone without masks. Its hit is the same, but where two primitives meet at one place: which of them rounding
@@ -42,14 +45,13 @@ class EntrySearch {
   /// The node that the packet is asked about next.
   accel::ChildRef node() const { return at(head_).ref; }
 
-  /// `children` of node(); `hit`, those that some ray may meet, and t0 when at the earliest. Whether node() has become
-  /// an entry.
-  bool answer(const Children& children, unsigned hit, const float* t0) {
+  /// `children` of node(); those that some ray may meet (`hit`) and that every ray meets (`sure`), bit lane, and t0
+  /// when at the earliest. Whether node() has become an entry.
+  bool answer(const Children& children, unsigned hit, unsigned sure, const float* t0) {
     const Entry node = at(head_++);
-    int places = static_cast<int>(tail_ - head_) + entries_.count() + std::popcount(hit);
-    for (unsigned lane = 0; lane < 4; ++lane)
-      if ((hit >> lane & 1) != 0 && accel::is_leaf(children[lane])) places = most_ + 1;
-    const bool stays = places > most_;
+    const int places = static_cast<int>(tail_ - head_) + entries_.count() + std::popcount(hit);
+    bool stays = places > most_ || std::popcount(hit & ~sure) > 1;
+    for (unsigned lane = 0; lane < 4; ++lane) stays |= (hit >> lane & 1) != 0 && accel::is_leaf(children[lane]);
     if (stays) {
       entries_.add(node);
     } else {

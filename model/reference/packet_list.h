@@ -22,7 +22,10 @@ struct PacketPlan {
 /// A packet was asked about the children of a node.
 struct PacketVisit {
   std::uint32_t node = 0;
-  std::uint8_t hit = 0;  ///< bit lane: some ray may meet the child
+  std::uint8_t lanes = 0;  ///< children that some ray may meet (bits 0..3) | that every ray meets (bits 4..7)
+
+  unsigned hit() const { return lanes & 15u; }
+  unsigned sure() const { return lanes >> 4; }
   bool operator==(const PacketVisit&) const = default;
 };
 

@@ -20,6 +20,15 @@ void check(const PacketPlan& plan) {
                 fmt::format("give 1 to {}", kMostEntries));
 }
 
+void expect_from_entries(std::span<const intersect::Ray> rays, std::span<const intersect::Hit> from_entries,
+                         std::span<intersect::Hit> expected) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const bool both_found =
+        from_entries[i].primitive != intersect::kNoPrimitive && expected[i].primitive != intersect::kNoPrimitive;
+    if (rays[i].kind == intersect::RayKind::AnyHit && both_found) expected[i] = from_entries[i];
+  }
+}
+
 PacketWalk::PacketWalk(const accel::Bvh4& bvh, const PacketPlan& plan, std::span<const intersect::Ray> rays,
                        const PacketList& cut)
     : rays_(rays), entries_(cut.packets()) {
@@ -44,8 +53,8 @@ void PacketWalk::walk(std::size_t packet, const accel::Bvh4& bvh, const PacketPl
     for (search.begin(plan.most_entries, slabs.begins()); !search.done();) {
       const accel::Node4& node = bvh.nodes[search.node()];
       const cull::packet::PacketTimes times = slabs.test(node.boxes);
-      list_.visits.push_back({search.node(), times.hit});
-      search.answer({node.child[0], node.child[1], node.child[2], node.child[3]}, times.hit, times.t0);
+      list_.visits.push_back({search.node(), static_cast<std::uint8_t>(times.hit | times.sure << 4)});
+      search.answer({node.child[0], node.child[1], node.child[2], node.child[3]}, times.hit, times.sure, times.t0);
     }
     entries_[packet] = search.entries();
   }

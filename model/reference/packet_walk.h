@@ -36,6 +36,11 @@ class PacketWalk {
   std::vector<EntryList> entries_;  ///< by packet
 };
 
+/// Any hit answers an any-hit ray, and from its packet's entries it may come to another one first than alone. Where
+/// both find one, what it finds from the entries is what it is expected to find.
+void expect_from_entries(std::span<const intersect::Ray> rays, std::span<const intersect::Hit> from_entries,
+                         std::span<intersect::Hit> expected);
+
 /// Throws Error naming what is out of range.
 void check(const PacketPlan& plan);
 

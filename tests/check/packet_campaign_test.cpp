@@ -38,6 +38,9 @@ TEST(PacketCampaign, what_a_method_says_of_a_packet_holds_for_every_ray) {
       std::uint64_t found = 0;
       for (const PacketAnswers& answers : tally.by_method) found = std::max(found, answers.all_miss);
       EXPECT_GT(found, tally.all_miss / 20);
+      if (kPacketPrimitives[kind] == "box") {
+        EXPECT_GT(tally.by_method[kUnitMethod].all_miss, 0u);
+      }
     }
 }
 

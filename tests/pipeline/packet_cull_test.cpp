@@ -172,7 +172,7 @@ TEST(PacketCull, the_events_of_each_packet_and_of_each_ray_are_those_the_referen
                ++visit, ++next) {
             ASSERT_LT(visit, packets.first_visit[p + 1]);
             ASSERT_EQ(events[next].step.ref, packets.visits[visit].node);
-            ASSERT_EQ(events[next].step.lanes >> 4, packets.visits[visit].hit);
+            ASSERT_EQ(events[next].step.lanes >> 4, packets.visits[visit].hit());
             ++packets_walked;
           }
           for (auto s = block->steps.first_step[ray]; s < block->steps.first_step[ray + 1]; ++s, ++next) {

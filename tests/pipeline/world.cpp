@@ -154,7 +154,7 @@ void World::travel_in(const reference::PacketPlan& packets) {
     travelling->steps.clear();
     travelling->packets = reference::cut_packets(static_cast<std::uint32_t>(block->rays.size()), packets.size);
     const reference::PacketWalk walk(tree_, packets, travelling->rays, travelling->packets);
-    walk.trace(traversal, travelling->steps);
+    reference::expect_from_entries(travelling->rays, walk.trace(traversal, travelling->steps), travelling->expected);
     travelling->packets = walk.list();
     block = std::move(travelling);
   }

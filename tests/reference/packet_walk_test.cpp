@@ -50,9 +50,9 @@ std::string bits_of(const Ray& r) {
                      r.origin.z, r.direction.x, r.direction.y, r.direction.z, r.tmin, r.tmax);
 }
 
-TEST(PacketSlabs, a_packet_meets_every_box_that_the_slab_test_of_one_of_its_rays_meets_and_not_later) {
+TEST(PacketSlabs, a_packet_meets_what_the_slab_test_of_one_of_its_rays_meets_not_later_and_surely_what_all_meet) {
   SCOPED_TRACE(oracle::seed_note());
-  std::uint64_t state = oracle::test_seed(), met = 0, missed = 0;
+  std::uint64_t state = oracle::test_seed(), met = 0, missed = 0, sure = 0;
   for (int round = 0; round < 40000; ++round) {
     std::vector<intersect::PreparedRay> rays;
     cull::packet::PacketSlabs packet;
@@ -88,6 +88,8 @@ TEST(PacketSlabs, a_packet_meets_every_box_that_the_slab_test_of_one_of_its_rays
         boxes.hi[axis][lane] = empty ? -std::numeric_limits<float>::infinity() : std::max(a, b);
       }
     const cull::packet::PacketTimes found = packet.test(boxes);
+    ASSERT_EQ(found.sure & ~found.hit, 0);
+    sure += static_cast<unsigned>(std::popcount(found.sure));
     missed += 4 - static_cast<unsigned>(std::popcount(found.hit));
     if (round % 7 == 0) {
       ASSERT_EQ(found.hit >> 3, 0) << "an empty lane is met";
@@ -96,7 +98,10 @@ TEST(PacketSlabs, a_packet_meets_every_box_that_the_slab_test_of_one_of_its_rays
       intersect::SlabTimes times;
       intersect::slab_test_outer(ray, boxes, ray.ray.tmax, times);
       for (int lane = 0; lane < intersect::kLanes; ++lane) {
-        if ((times.hit >> lane & 1) == 0) continue;
+        const bool hit = (times.hit >> lane & 1) != 0;
+        ASSERT_TRUE(hit || (found.sure >> lane & 1) == 0)
+            << "round " << round << ", lane " << lane << ", " << bits_of(ray.ray);
+        if (!hit) continue;
         ++met;
         ASSERT_NE(found.hit >> lane & 1, 0) << "round " << round << ", lane " << lane << ", " << bits_of(ray.ray);
         ASSERT_LE(found.t0[lane], times.t0[lane]) << "round " << round << ", lane " << lane << ", " << bits_of(ray.ray);
@@ -105,6 +110,7 @@ TEST(PacketSlabs, a_packet_meets_every_box_that_the_slab_test_of_one_of_its_rays
   }
   EXPECT_GT(met, 10000u);
   EXPECT_GT(missed, 10000u);
+  EXPECT_GT(sure, 1000u);
 }
 
 TEST(PacketSlabs, one_ray_by_itself_is_bounded_as_the_slab_test_bounds_it) {
@@ -119,6 +125,7 @@ TEST(PacketSlabs, one_ray_by_itself_is_bounded_as_the_slab_test_bounds_it) {
       intersect::slab_test_outer(prepared, node.boxes, ray.tmax, times);
       const cull::packet::PacketTimes found = packet.test(node.boxes);
       ASSERT_EQ(found.hit, times.hit) << bits_of(ray);
+      ASSERT_EQ(found.sure & ~times.hit, 0) << bits_of(ray);
       for (int lane = 0; lane < intersect::kLanes; ++lane)
         if ((times.hit >> lane & 1) != 0) {
           ASSERT_EQ(found.t0[lane], times.t0[lane]) << bits_of(ray);
@@ -281,7 +288,7 @@ TEST(PacketWalk, with_one_entry_a_ray_visits_what_it_visits_alone_but_for_what_l
 TEST(PacketWalk, a_packet_keeps_within_its_entries_and_ends_above_leaves) {
   const scene::Scene scene = scene::load("gen:tilted-quads?quads=300");
   const accel::Bvh4 bvh = accel::build(scene.mesh, {});
-  const std::vector<Ray> rays = test::random_rays(scene, 400, oracle::test_seed());
+  const std::vector<Ray> rays = test::primary_rays(scene, 20, 20);
   std::set<std::uint64_t> counts;
   for (int most = 1; most <= reference::kMostEntries; ++most) {
     const PacketWalk walk(bvh, {4, most}, rays, reference::cut_packets(400, 4));
@@ -292,7 +299,37 @@ TEST(PacketWalk, a_packet_keeps_within_its_entries_and_ends_above_leaves) {
     }
     for (const accel::ChildRef entry : walk.list().entries) ASSERT_TRUE(accel::is_inner(entry));
   }
-  EXPECT_GT(counts.size(), 4u);
+  EXPECT_GT(counts.size(), 3u);
+}
+
+TEST(PacketWalk, a_ray_that_finds_nothing_asks_for_no_more_nodes_than_alone) {
+  SCOPED_TRACE(oracle::seed_note());
+  std::uint64_t with = 0, without = 0;
+  for (const char* name : {"gen:hair-ball?strands=300", "gen:foliage?twigs=40"}) {
+    const scene::Scene scene = scene::load(name);
+    const accel::Bvh4 bvh = accel::build(scene.mesh, {});
+    std::vector<Ray> rays = test::primary_rays(scene, 48, 48);
+    const std::vector<Ray> more = test::random_rays(scene, 500, oracle::test_seed());
+    rays.insert(rays.end(), more.begin(), more.end());
+    const cull::MaskTester none(cull::Design::None, {});
+    const reference::Traversal traversal(bvh, nullptr, none);
+    reference::StepList alone;
+    for (const Ray& ray : rays) traversal.trace(ray, &alone);
+    for (const PacketPlan plan : {PacketPlan{4, 16}, {16, 8}, {64, 16}}) {
+      const PacketWalk walk(bvh, plan, rays,
+                            reference::cut_packets(static_cast<std::uint32_t>(rays.size()), plan.size));
+      reference::StepList steps;
+      const std::vector<Hit> hits = walk.trace(traversal, steps);
+      for (std::uint64_t i = 0; i < rays.size(); ++i) {
+        if (hits[i].primitive != intersect::kNoPrimitive) continue;  // what a hit drops depends on the order
+        const std::uint64_t of_ray = count_steps(steps, i, i + 1).node_visits;
+        const std::uint64_t of_alone = count_steps(alone, i, i + 1).node_visits;
+        ASSERT_LE(of_ray, of_alone) << name << ", packets of " << plan.size << ", " << bits_of(rays[i]);
+        with += of_ray, without += of_alone;
+      }
+    }
+  }
+  EXPECT_LT(with, without * 9 / 10);
 }
 
 TEST(PacketWalk, entries_are_kept_nearest_first_and_equal_ones_as_they_come) {

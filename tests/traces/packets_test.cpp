@@ -235,7 +235,7 @@ TEST_F(PacketTrace, walks_of_packets_that_are_none_are_refused_and_the_rest_can_
     reference::PacketList& list = changed.packets;
     const int what = i % 5;
     if (what == 0) list.visits[random() % list.visits.size()].node ^= 1u << (random() % 32);
-    if (what == 1) list.visits[random() % list.visits.size()].hit ^= static_cast<std::uint8_t>(1 + random() % 255);
+    if (what == 1) list.visits[random() % list.visits.size()].lanes ^= static_cast<std::uint8_t>(1 + random() % 255);
     if (what == 2) list.entries[random() % list.entries.size()] ^= 1u << (random() % 32);
     if (what == 3) ++list.first_visit[1 + random() % (list.packets() - 1)];
     if (what == 4) --list.first_entry[1 + random() % (list.packets() - 1)];
@@ -254,6 +254,36 @@ TEST_F(PacketTrace, walks_of_packets_that_are_none_are_refused_and_the_rest_can_
     EXPECT_FALSE(passed && what != 1) << "change " << i << " of kind " << what;
   }
   EXPECT_GT(refused, 2000);
+}
+
+TEST(PacketRecord, any_hit_rays_are_expected_to_find_what_they_come_to_first_from_their_packets_entries) {
+  const TemporaryFolder folder;
+  RecordOptions options = packet_options();
+  options.rays.kind = RayOptions::Rays::Shadow;
+  options.rays.width = options.rays.height = 64;
+  options.packets.forming = reference::Forming::Order;
+  options.packets.plan = {8, 16};
+  const RecordSummary summary = record(test::hair_scene(), options, folder.file("shadow.ctut"));
+  for (const DesignCounts& design : summary.designs) EXPECT_EQ(design.different_hits, 0u);
+  const TraceReader reader(folder.file("shadow.ctut"));
+  const accel::Bvh4 bvh = accel::decode(reader.read_image());
+  const cull::MaskTester none(Design::None, {});
+  const reference::Traversal alone(bvh, nullptr, none);
+  std::uint64_t others = 0, any_hits = 0;
+  for (std::uint64_t b = 0; b < reader.blocks(); ++b) {
+    const reference::RayBlock block = reader.read_block(b);
+    for (std::size_t i = 0; i < block.rays.size(); ++i) {
+      const intersect::Hit hit = alone.trace(block.rays[i]);
+      EXPECT_EQ(hit.primitive == intersect::kNoPrimitive, block.expected[i].primitive == intersect::kNoPrimitive);
+      any_hits += block.rays[i].kind == intersect::RayKind::AnyHit;
+      others += !intersect::same_bits(hit, block.expected[i]);
+    }
+  }
+  EXPECT_GT(any_hits, 100u);
+  EXPECT_LT(others, any_hits);
+  EXPECT_NO_THROW(TraceFeed(reader, {0, 16}).next());
+  TraceFeed cut(reader, {1, reader.rays()});
+  EXPECT_THROW(cut.next(), Error);
 }
 
 TEST(PacketRecord, options_out_of_range_are_refused) {

@@ -35,35 +35,45 @@ void PacketSlabs::add(const intersect::PreparedRay& ray) {
     axis.rcp_hi = max(axis.rcp_hi, ray.rcp_up[i]);
   }
   begins_ = min(begins_, ray.ray.tmin);
+  all_begun_ = max(all_begun_, ray.ray.tmin);
   ends_ = max(ends_, ray.ray.tmax);
+  first_end_ = min(first_end_, ray.ray.tmax);
 }
 
 /// An axis along which all move down is mirrored, exactly, so that they move up.
 PacketSlabs::Stay PacketSlabs::stay(const Axis& axis, float lo, float hi) {
+  constexpr Stay kNever{kInfinity, -kInfinity, kInfinity, -kInfinity};
+  constexpr Stay kUnknown{-kInfinity, kInfinity, kInfinity, -kInfinity};
+  constexpr Stay kAlways{-kInfinity, kInfinity, -kInfinity, kInfinity};
   if (axis.all_still()) {
-    const bool outside = axis.origin_hi < lo || hi < axis.origin_lo;
-    return outside ? Stay{kInfinity, -kInfinity} : Stay{-kInfinity, kInfinity};
+    if (axis.origin_hi < lo || hi < axis.origin_lo) return kNever;
+    return lo <= axis.origin_lo && axis.origin_hi <= hi ? kAlways : kUnknown;
   }
-  if (!axis.one_way()) return lo <= hi ? Stay{-kInfinity, kInfinity} : Stay{kInfinity, -kInfinity};
+  if (!axis.one_way()) return lo <= hi ? kUnknown : kNever;
   const float near = axis.down ? -hi : lo, far = axis.down ? -lo : hi;
   const float last_origin = axis.down ? -axis.origin_lo : axis.origin_hi;
   const float first_origin = axis.down ? -axis.origin_hi : axis.origin_lo;
   const float rcp_small = axis.down ? -axis.rcp_hi : axis.rcp_lo, rcp_large = axis.down ? -axis.rcp_lo : axis.rcp_hi;
   return {time_of<Round::Down>(numeric::sub<Round::Down>(near, last_origin), rcp_small, rcp_large),
-          time_of<Round::Up>(numeric::sub<Round::Up>(far, first_origin), rcp_small, rcp_large)};
+          time_of<Round::Up>(numeric::sub<Round::Up>(far, first_origin), rcp_small, rcp_large),
+          time_of<Round::Up>(numeric::sub<Round::Up>(near, first_origin), rcp_small, rcp_large),
+          time_of<Round::Down>(numeric::sub<Round::Down>(far, last_origin), rcp_small, rcp_large)};
 }
 
 PacketTimes PacketSlabs::test(const intersect::Box4& boxes) const {
   PacketTimes times;
   for (int lane = 0; lane < intersect::kLanes; ++lane) {
-    float t0 = begins_, t1 = ends_;
+    float t0 = begins_, t1 = ends_, all_t0 = all_begun_, all_t1 = first_end_;
     for (int i = 0; i < 3; ++i) {
       const Stay within = stay(axis_[i], boxes.lo[i][lane], boxes.hi[i][lane]);
       t0 = max(t0, within.from);
       t1 = min(t1, within.to);
+      all_t0 = max(all_t0, within.all_from);
+      all_t1 = min(all_t1, within.all_to);
     }
     times.t0[lane] = t0;
-    if (t0 <= t1) times.hit = static_cast<std::uint8_t>(times.hit | 1u << lane);
+    times.hit = static_cast<std::uint8_t>(times.hit | unsigned{t0 <= t1} << lane);
+    times.sure = static_cast<std::uint8_t>(times.sure | unsigned{all_t0 <= all_t1} << lane);
   }
   return times;
 }

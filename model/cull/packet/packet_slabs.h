@@ -3,8 +3,9 @@
 //
 // Every number is an outer bound of what intersect::slab_test computes for each ray by itself, and directed rounding is
 // monotone; so a child that is missed here is missed, to the bit, by slab_test of every ray, and t0 here is not after
-// t0 there. Along an axis on which not all rays move in one direction nothing is known of the times, but where none
-// moves the origins say whether all are outside.
+// t0 there. Inner bounds say the same of what is met: a child that is surely met here is hit, to the bit, by slab_test
+// of every ray. Along an axis on which not all rays move in one direction nothing is known of the times, but where none
+// moves the origins say whether all are outside, or inside.
 // Source: equation 1 of the packet culling paper, T_x = (B_x - O_x) (1 / V_x), in the shape of slab_test.h.
 #pragma once
 
@@ -14,10 +15,11 @@
 
 namespace ctu::cull::packet {
 
-/// Of the lanes that some ray may meet: bits, and not after the first meeting of any ray.
+/// Of four lanes.
 struct PacketTimes {
-  std::uint8_t hit = 0;
-  float t0[intersect::kLanes] = {};
+  std::uint8_t hit = 0;              ///< bit lane: some ray may meet the box
+  std::uint8_t sure = 0;             ///< bit lane: every ray meets it, by its own slab test
+  float t0[intersect::kLanes] = {};  ///< of lanes hit: not after the first meeting of any ray
 };
 
 class PacketSlabs {
@@ -44,14 +46,15 @@ class PacketSlabs {
     bool one_way() const { return up != down && !still; }
     bool all_still() const { return still && !up && !down; }
   };
-  /// The times between which some ray may be within the slab.
+  /// Some ray may be within the slab between `from` and `to`; every ray is between `all_from` and `all_to`.
   struct Stay {
-    float from, to;
+    float from, to, all_from, all_to;
   };
   static Stay stay(const Axis& axis, float lo, float hi);
 
   Axis axis_[3];
-  float begins_ = kInfinity, ends_ = -kInfinity;
+  float begins_ = kInfinity, ends_ = -kInfinity;          ///< the first begin, the last end
+  float all_begun_ = -kInfinity, first_end_ = kInfinity;  ///< the last begin, the first end
 };
 
 }  // namespace ctu::cull::packet

@@ -33,6 +33,10 @@ void print_row(std::string_view generator, std::string_view primitive, const Pac
 
 }  // namespace
 
+std::string_view judged_method_name(std::size_t method) {
+  return method == kUnitMethod ? "unit-slabs" : to_string(cull::packet::kMethods[method]);
+}
+
 std::uint64_t PacketTally::wrong() const {
   std::uint64_t sum = 0;
   for (const PacketAnswers& answers : by_method) sum += answers.lost + answers.invented;
@@ -92,11 +96,14 @@ PacketCampaignResult run_packet_campaign(const PacketCampaignOptions& options,
 }
 
 void print_packet_campaign(const PacketCampaignOptions& options, const PacketCampaignResult& result) {
-  fmt::print("{:45}{:^70}{:10}{:^70}\n{:<16}{:<10}{:>9}{:>10}", "", "found, % of exact all-miss", "",
+  fmt::print("{:45}{:^84}{:10}{:^84}\n{:<16}{:<10}{:>9}{:>10}", "", "found, % of exact all-miss", "",
              "found, % of exact all-hit", "packets", "primitive", "number", "all-miss");
-  for (const auto method : cull::packet::kMethods) fmt::print("{:>14}", to_string(method));
+  const auto print_names = [] {
+    for (std::size_t method = 0; method < kJudgedMethods; ++method) fmt::print("{:>14}", judged_method_name(method));
+  };
+  print_names();
   fmt::print("{:>10}", "all-hit");
-  for (const auto method : cull::packet::kMethods) fmt::print("{:>14}", to_string(method));
+  print_names();
   fmt::print("{:>7}\n", "wrong");
   std::uint64_t packets = 0, rays = 0;
   for (std::size_t g = 0; g < options.generators.size(); ++g) {

@@ -18,6 +18,11 @@ namespace ctu::sim::check {
 
 inline constexpr std::array<std::string_view, 4> kPacketPrimitives = {"box", "triangle", "sphere", "moving"};
 
+/// The methods that are judged: those of cull::packet, and the slab test of the unit's packet_cull, for boxes only.
+inline constexpr std::size_t kJudgedMethods = cull::packet::kMethods.size() + 1;
+inline constexpr std::size_t kUnitMethod = kJudgedMethods - 1;
+std::string_view judged_method_name(std::size_t method);
+
 /// What one method says of one kind of primitive.
 struct PacketAnswers {
   std::uint64_t all_miss = 0, all_hit = 0;
@@ -28,7 +33,7 @@ struct PacketAnswers {
 struct PacketTally {
   std::uint64_t packets = 0, rays = 0;
   std::uint64_t all_miss = 0, all_hit = 0;  ///< in exact arithmetic
-  std::array<PacketAnswers, cull::packet::kMethods.size()> by_method;
+  std::array<PacketAnswers, kJudgedMethods> by_method;
 
   std::uint64_t wrong() const;
   PacketTally& operator+=(const PacketTally& other);

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
+#include "model/cull/packet/packet_slabs.h"
 #include "sim/check/packets/packet_campaign.h"
 #include "sim/exact_meeting.h"
 
@@ -64,6 +66,35 @@ struct Asked {
   Reach reach;
 };
 
+/// The packet as the unit knows it, of the rays that still reach anywhere.
+cull::packet::PacketSlabs unit_packet(const PacketCase& packet) {
+  cull::packet::PacketSlabs slabs;
+  for (std::size_t i = 0; i < packet.rays.size(); ++i) {
+    Ray ray = packet.rays[i];
+    ray.tmax = packet.limits[i];
+    const intersect::PreparedRay prepared = intersect::prepare_ray(ray);
+    if (prepared.valid) slabs.add(prepared);
+  }
+  return slabs;
+}
+
+/// Where it has no test for such a primitive it must ask each ray.
+template <class Primitive>
+Answer unit_answer(const cull::packet::PacketSlabs&, const Primitive&) {
+  return Answer::Undecided;
+}
+Answer unit_answer(const cull::packet::PacketSlabs& packet, const cull::packet::Box& box) {
+  if (packet.empty()) return Answer::AllMiss;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  intersect::Box4 boxes;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int lane = 0; lane < intersect::kLanes; ++lane) {
+      boxes.lo[axis][lane] = lane == 0 ? box.lo[axis] : kInfinity;
+      boxes.hi[axis][lane] = lane == 0 ? box.hi[axis] : -kInfinity;
+    }
+  return packet.test(boxes).hit == 0 ? Answer::AllMiss : Answer::Undecided;
+}
+
 std::vector<Asked> ask_all(const PacketCase& packet) {
   std::vector<Asked> asked;
   const Lines as_given = make_lines(packet.rays, cull::packet::Scale::AsGiven),
@@ -90,6 +121,7 @@ void judge_packet(std::uint64_t seed, std::uint32_t generator, std::uint64_t num
                   std::vector<PacketFailure>& failures, std::size_t kept) {
   const PacketCase packet = make_packet_case(seed, generator, number);
   const std::vector<Asked> asked = ask_all(packet);
+  const cull::packet::PacketSlabs unit = unit_packet(packet);
   const auto judge = [&](std::size_t kind, const auto& primitive) {
     const ExactAnswer exact(packet, primitive);
     PacketTally& tally = tallies[kind];
@@ -97,9 +129,8 @@ void judge_packet(std::uint64_t seed, std::uint32_t generator, std::uint64_t num
     tally.rays += packet.rays.size();
     tally.all_miss += exact.first_meeting < 0;
     tally.all_hit += exact.first_missing < 0;
-    for (const Asked& one : asked) {
-      PacketAnswers& answers = tally.by_method[static_cast<std::size_t>(one.method)];
-      const Answer answer = one.bounds.test(primitive, one.reach);
+    const auto hold_to = [&](std::size_t method, Answer answer) {
+      PacketAnswers& answers = tally.by_method[method];
       const bool lost = answer == Answer::AllMiss && exact.first_meeting >= 0;
       const bool invented = answer == Answer::AllHit && exact.first_missing >= 0;
       answers.all_miss += answer == Answer::AllMiss;
@@ -110,9 +141,11 @@ void judge_packet(std::uint64_t seed, std::uint32_t generator, std::uint64_t num
         failures.push_back(
             {generator, number,
              fmt::format("{}: {} says that all rays {} the {}, but {}", packet_generators()[generator].name,
-                         to_string(one.method), lost ? "miss" : "meet", kPacketPrimitives[kind],
+                         judged_method_name(method), lost ? "miss" : "meet", kPacketPrimitives[kind],
                          describe(packet, lost ? exact.first_meeting : exact.first_missing))});
-    }
+    };
+    for (const Asked& one : asked) hold_to(static_cast<std::size_t>(one.method), one.bounds.test(primitive, one.reach));
+    hold_to(kUnitMethod, unit_answer(unit, primitive));
   };
   judge(0, packet.box);
   judge(1, packet.triangle);
