@@ -26,7 +26,7 @@ ctu_rtl_build(boxes-8 BOX_BITS 8 SLOT_BITS 6 COVERAGE line)
 ctu_rtl_build(boxes-16 BOX_BITS 16 DECODE_LATENCY 1 DESIGN comparators ENTRIES 64 UNITS 2 LOCATE_LATENCY 8 BOX_LATENCY 4
   NODE_PORTS 2)
 # What leaves may hold: a box beside every primitive, spheres, both.
-ctu_rtl_build(ray-boxes ALL DESIGN none PRIMITIVE_BOXES 1 MAX_LEAF_BYTES 960 CULL_LATENCY 4 SLOT_BITS 3 TRIANGLE_LATENCY 13)
+ctu_rtl_build(ray-boxes ALL DESIGN none PRIMITIVE_BOXES 1 MAX_LEAF_BYTES 512 CULL_LATENCY 4 TRIANGLE_LATENCY 13)
 ctu_rtl_build(ray-boxes-spheres ALL PRIMITIVE_BOXES 1 SPHERES 1 CULL_UNITS 2 MAX_LEAF_BYTES 256 SLOT_BITS 4)
 ctu_rtl_build(spheres DESIGN comparators SPHERES 1 SPHERE_LATENCY 20 SLOT_BITS 3 LEAF_PORTS 2)
 
