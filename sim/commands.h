@@ -52,7 +52,7 @@ struct RecordArgs {
   UnitArgs unit;               ///< that auto decides for: its configuration
   bool strip_full = false;     ///< nodes whose masks are all full carry none
   std::uint32_t node_alignment_bytes = 4, triangle_alignment_bytes = 4;
-  std::uint32_t box_bits = 32;                       ///< of a coordinate of a node's boxes
+  std::uint32_t box_bits = 32;  ///< of a coordinate of a node's boxes
   bool primitive_boxes = false;
   int packets = 0;                                   ///< rays of a packet; 0: rays travel alone
   std::optional<int> packet_entries, packet_window;  ///< none: as RayPackets has it

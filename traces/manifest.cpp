@@ -420,8 +420,7 @@ void read(const Reader& from, Section& to) {
     item.get("description", column.description);
     std::string per;
     item.get("per", per);
-    for (const Per known :
-         {Per::Ray, Per::Step, Per::Key, Per::Leaf, Per::Word, Per::Packet, Per::Visit, Per::Entry})
+    for (const Per known : {Per::Ray, Per::Step, Per::Key, Per::Leaf, Per::Word, Per::Packet, Per::Visit, Per::Entry})
       if (to_string(known) == per) column.per = known;
   });
 }

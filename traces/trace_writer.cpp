@@ -136,8 +136,8 @@ TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel
   manifest_.image.shape.bytes = {};
   manifest_.sections = {image_section(), rays_section(), hits_section()};
   for (const cull::Design design : stored_designs_)
-    manifest_.sections.push_back(steps_section(std::string(cull::to_string(design)),
-                                               {has_keys(design), with_met_, manifest_.packets.any()}));
+    manifest_.sections.push_back(
+        steps_section(std::string(cull::to_string(design)), {has_keys(design), with_met_, manifest_.packets.any()}));
   if (manifest_.packets.any()) manifest_.sections.push_back(packets_section());
   if (manifest_.masks.entries != 0) manifest_.sections.push_back(compression_section());
 
