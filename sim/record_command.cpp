@@ -53,8 +53,10 @@ void print_culling(const traces::CullingChoice& said) {
 
 void print_step(const reference::Step& step, const accel::Bvh4& bvh) {
   if (step.is_leaf()) {
-    fmt::print("    leaf  triangles {}..{}{}\n", accel::leaf_first(step.ref),
-               accel::leaf_first(step.ref) + step.triangles_tested() - 1,
+    const int count = accel::leaf_count(step.ref), tested = step.triangles_tested();
+    fmt::print("    leaf  triangles {}..{}{}{}\n", accel::leaf_first(step.ref),
+               accel::leaf_first(step.ref) + static_cast<unsigned>(count) - 1,
+               tested < count ? fmt::format(", {} tested", tested) : "",
                step.became_best() != 0 ? fmt::format(", hit by mask {:#x}", step.became_best()) : "");
     return;
   }
