@@ -17,7 +17,7 @@
 // Arithmetic: cull::packet::PacketSlabs. A packet waits for nothing but its own rays, which come as long as there are
 // as many contexts as rays in a packet, so it cannot stand still for ever.
 //
-// Stated in docs/unit.md.
+// Stated in docs/unit.md. No twin in gates yet: a unit in SystemVerilog refuses traces whose rays travel in packets.
 #pragma once
 
 #include <bit>

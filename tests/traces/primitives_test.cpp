@@ -2,6 +2,7 @@
 // traces stay what they were, and nothing that means nothing gets past the reader.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "model/base/error.h"
@@ -151,6 +152,22 @@ TEST_F(HostilePrimitives, given_a_sphere_of_no_size_then_refused) {
 TEST_F(HostilePrimitives, given_a_box_that_is_not_the_primitives_then_refused) {
   with_word("a box that is not the primitive's", false, 10, kOne);
   with_word("a box that is not the primitive's", true, 15, kMinusOne);
+}
+TEST_F(HostilePrimitives, given_met_boxes_that_no_leaf_has_or_not_as_many_as_were_tested_then_refused) {
+  const auto with_met = [&](const std::string& names, std::uint16_t first) {
+    expect_refusal(names, [&](Parts& parts) {
+      constexpr int kStepsOfNone = 3, kMet = 6;
+      const auto chunk = std::find_if(parts.chunks.begin(), parts.chunks.end(), [](const Parts::Chunk& one) {
+        return one.entry.section == kStepsOfNone && one.entry.column == kMet && one.entry.elements > 0;
+      });
+      ASSERT_NE(chunk, parts.chunks.end());
+      auto met = Parts::elements<std::uint16_t>(*chunk);
+      met[0] = first;
+      Parts::set_elements(*chunk, met);
+    });
+  };
+  with_met("a box is met of a primitive that the leaf does not have", 0x8000);
+  with_met("not all triangles of a leaf are tested", 0);
 }
 TEST_F(HostilePrimitives, given_another_number_of_spheres_then_refused) {
   expect_refusal("sphere_count", [](Parts& parts) { parts.replace("\"sphere_count\": 40", "\"sphere_count\": 41"); });
