@@ -166,7 +166,10 @@ void add_run(CLI::App& app, Parsed& parsed) {
       ->capture_default_str();
   command->add_option("--json", parsed.run.json_path, "write the result here");
   command->add_option("--waves", parsed.run.waves_path, "write a waveform (VCD) of --window here");
-  command->add_option("--window", parsed.run.window, "cycles A:B of the waveform");
+  command->add_option("--timeline", parsed.run.timeline_path,
+                      "write each ray's way through the stages in --window here: .kanata or .kanata.zst for Konata, "
+                      ".pftrace for Perfetto");
+  command->add_option("--window", parsed.run.window, "cycles A:B of the waveform, or of the timeline [0:4999]");
   command->add_option("--first", parsed.run.first_ray, "first ray")->capture_default_str();
   command->add_option("--rays", parsed.run.rays, "number of rays; 0: to the end")->capture_default_str();
   command->callback([&parsed, command] {

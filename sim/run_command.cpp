@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "sim/commands.h"
 #include "sim/config_file.h"
 #include "sim/scene_args.h"
+#include "sim/timeline/timeline_file.h"
 #include "sim/unit_runner.h"
 
 namespace ctu::sim {
@@ -28,23 +30,48 @@ void check_engine_heeds(const RunArgs& args) {
   };
   if (!args.waves_path.empty() && (args.engine == "rtl" || args.engine == "reference"))
     refuse("--waves", "draws none", "give --engine cycle or both");
+  if (!args.timeline_path.empty() && args.engine != "cycle")
+    refuse("--timeline", "draws none", "give --engine cycle; it takes the same cycles as rtl");
   if (args.engine == "cycle") return;
   if (args.gives_mode) refuse("--mode", "has one mode only", "leave it out, or give --engine cycle");
   if (args.gives_source) refuse("--source", "computes all outcomes", "leave it out, or give --engine cycle");
 }
 
-/// "A:B" into the options.
-void parse_window(const std::string& window, unit::RunOptions& options) {
+struct Window {
+  pipeline::Cycle first = 0, last = 0;
+};
+
+/// Of "A:B".
+Window parse_window(const std::string& window) {
+  Window cycles;
   const auto colon = window.find(':');
-  const auto number = [&](std::string_view text, std::uint64_t& value) {
+  const auto number = [&](std::string_view text, pipeline::Cycle& value) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size() && !text.empty();
   };
-  if (colon == std::string::npos || !number(std::string_view(window).substr(0, colon), options.waves_first) ||
-      !number(std::string_view(window).substr(colon + 1), options.waves_last) ||
-      options.waves_first > options.waves_last)
+  if (colon == std::string::npos || !number(std::string_view(window).substr(0, colon), cycles.first) ||
+      !number(std::string_view(window).substr(colon + 1), cycles.last) || cycles.first > cycles.last)
     throw Error("--window", fmt::format("\"{}\" is not a range of cycles", window),
                 "write it as in --window 1000:2000");
+  return cycles;
+}
+
+/// What --waves and --timeline ask, into the options.
+std::optional<pipeline::Timeline> watch(const RunArgs& args, unit::RunOptions& options) {
+  Window window{0, kUsualTimelineCycles - 1};
+  if (!args.window.empty()) window = parse_window(args.window);
+  options.waves_path = args.waves_path;
+  options.waves_first = window.first;
+  options.waves_last = window.last;
+  if (!args.waves_path.empty() && args.window.empty())
+    throw Error("--waves", "no window of cycles", "add --window A:B; a waveform of a whole run is gigabytes");
+  if (args.timeline_path.empty()) return std::nullopt;
+  check_timeline_name(args.timeline_path);
+  if (window.last - window.first >= kMostTimelineCycles)
+    throw Error("--window", fmt::format("a timeline of more than {} cycles", kMostTimelineCycles),
+                "choose a shorter window");
+  check_writable(args.timeline_path);
+  return pipeline::Timeline(window.first, window.last);
 }
 
 void print_compare_header(bool markdown) {
@@ -86,16 +113,15 @@ int run_command(const RunArgs& args) {
   plan.engine = args.engine;
   plan.config = load_config(args.unit.config_path, args.unit.sets);
   plan.options = run_options(args.unit);
-  plan.options.waves_path = args.waves_path;
-  if (!args.window.empty()) parse_window(args.window, plan.options);
-  if (!args.waves_path.empty() && args.window.empty())
-    throw Error("--waves", "no window of cycles", "add --window A:B; a waveform of a whole run is gigabytes");
+  std::optional<pipeline::Timeline> timeline = watch(args, plan.options);
+  if (timeline) plan.options.timeline = &*timeline;
   const LoadedTrace trace(args.trace);
   plan.range = trace.range(args.first_ray, args.rays);
   if (!args.json_path.empty()) check_writable(args.json_path);
   RunRecord record = run_plan(trace, plan);
   record.command = args.command;
   print_record(record);
+  if (timeline) write_timeline(*timeline, args.timeline_path);
   if (!args.json_path.empty()) write_json(record, args.json_path);
   return is_right(record) ? 0 : 1;
 }

@@ -103,6 +103,8 @@ class PlainEngine final : public Engine {
         links_(options.backpressure, parts_.row()),
         skip_idle_(options.skip_idle && !options.backpressure.any()),
         watchdog_(static_cast<Cycle>(config.watchdog.cycles)),
+        keep_events_(options.keep_events),
+        timeline_(options.timeline),
         progress_(options.progress) {
     for_each_link(stages_, state_.has_spills,
                   [&](const char* name, auto& out, auto& in) { links_.join(name, out, in); });
@@ -115,10 +117,13 @@ class PlainEngine final : public Engine {
   bool advance(Cycle until) override {
     while (!all_returned(stages_)) {
       if (now_ >= until) return false;
-      const bool watched = waves_ != nullptr && waves_->wants(now_);
-      if (watched) waves_->sample_links(now_);
+      const bool waved = waves_ != nullptr && waves_->wants(now_);
+      const bool watched = timeline_ != nullptr && timeline_->wants(now_);
+      if (waved) waves_->sample_links(now_);
+      if (watched) begin_watched();
       const bool moved = step(now_);
-      if (watched) waves_->sample_stages(now_);
+      if (waved) waves_->sample_stages(now_);
+      if (watched) end_watched();
       if (moved) {
         last_moved_ = now_++;
       } else {
@@ -133,6 +138,7 @@ class PlainEngine final : public Engine {
       waves_->close();
       waves_.reset();
     }
+    if (timeline_ != nullptr) std::exchange(timeline_, nullptr)->close(now_, state_.log);
     return true;
   }
 
@@ -146,6 +152,15 @@ class PlainEngine final : public Engine {
 
  private:
   static constexpr std::uint64_t kProgressRays = 4096;
+
+  void begin_watched() {
+    state_.log.keep_events(true);
+    timeline_->sample_links(links_.probes(), now_);
+  }
+  void end_watched() {
+    timeline_->sample(links_.probes(), state_.contexts, now_);
+    state_.log.keep_events(keep_events_);
+  }
 
   /// One cycle of every stage. Any order gives the same, as links judge by the state at the start of the cycle.
   bool step(Cycle now) {
@@ -172,6 +187,7 @@ class PlainEngine final : public Engine {
       for_each_part([&](auto& part) { next = earlier(next, part.next_event(now_)); });
       next = std::max(next, now_ + 1);
       if (waves_ != nullptr && waves_->first() > now_) next = std::min(next, waves_->first());
+      if (timeline_ != nullptr && timeline_->first() > now_) next = std::min(next, timeline_->first());
     }
     next = std::min({next, until, last_moved_ + watchdog_});
     if (next > now_ + 1) for_each_part([&](auto& part) { stand(part, next - now_ - 1); });
@@ -189,6 +205,8 @@ class PlainEngine final : public Engine {
   PlainLinks links_;
   bool skip_idle_;
   Cycle watchdog_, now_ = 0, last_moved_ = 0;
+  bool keep_events_;
+  Timeline* timeline_;
   std::unique_ptr<WaveWriter> waves_;
   std::function<void(std::uint64_t)> progress_;
   std::uint64_t progress_due_ = kProgressRays;
@@ -199,7 +217,8 @@ std::unique_ptr<Engine> make_with(const UnitConfig& config, const Work& work, co
   if (options.reverse_order) return std::make_unique<PlainEngine<Source, StallingWiring, false>>(config, work, options);
   if (options.backpressure.any())
     return std::make_unique<PlainEngine<Source, StallingWiring, true>>(config, work, options);
-  if (config.table_cache.bytes > 0 || !options.waves_path.empty())  // waves show what stages are in every cycle
+  const bool watched = !options.waves_path.empty() || options.timeline != nullptr;  // what stages are in every cycle
+  if (config.table_cache.bytes > 0 || watched)
     return std::make_unique<PlainEngine<Source, PlainWiring, true>>(config, work, options);
   return std::make_unique<PlainEngine<Source, ChainedWiring, true>>(config, work, options);
 }

@@ -10,6 +10,7 @@
 #include "model/pipeline/cycle.h"
 #include "model/pipeline/event_log.h"
 #include "model/pipeline/result.h"
+#include "model/pipeline/timeline.h"
 #include "model/pipeline/unit_config.h"
 #include "model/pipeline/work.h"
 
@@ -29,6 +30,7 @@ struct EngineOptions {
   Backpressure backpressure{};
   std::string waves_path{};
   Cycle waves_first = 0, waves_last = 0;
+  Timeline* timeline = nullptr;  ///< filled with what happens in its window
   std::function<void(std::uint64_t rays_done)> progress{};
 };
 

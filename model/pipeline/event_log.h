@@ -35,6 +35,9 @@ class EventLog {
     if (keep_events_) events_.push_back(event);
   }
 
+  /// Whether events from now on are kept.
+  void keep_events(bool keep) { keep_events_ = keep; }
+
   std::uint64_t timed_hash() const { return timed_hash_; }
   std::uint64_t untimed_hash() const { return untimed_hash_; }
   const std::vector<Event>& events() const { return events_; }

@@ -56,12 +56,13 @@ template <class Source>
 class PinUnit {
  public:
   PinUnit(const pipeline::UnitConfig& config, const pipeline::Work& work, const EngineOptions& options)
-      : state_(config, work, false),
+      : state_(config, work, options.timeline != nullptr && options.timeline->wants(0)),
         clock_("clock", 1, sc_core::SC_NS),
         shared_(clock_),
         stages_(construct(options), work.rays),
         watcher_("watcher", shared_, [this] { return end_of_cycle(); }),
         watchdog_(static_cast<Cycle>(config.watchdog.cycles)),
+        timeline_(options.timeline),
         progress_(options.progress) {
     for_each_link(stages_, state_.has_spills, [&](const char* name, auto& out, auto& in) { join(name, out, in); });
     for_each_stage(stages_, [&](auto& stage) { probes_.stages.push_back(&stage.account); });
@@ -78,6 +79,7 @@ class PinUnit {
       end = shared_.now + 1;
     }
     if (waves_ != nullptr) waves_->close();
+    if (timeline_ != nullptr) timeline_->close(end, state_.log);
     return make_result(state_, stages_, end);
   }
 
@@ -106,6 +108,11 @@ class PinUnit {
       waves_->sample_links(now);
       waves_->sample_stages(now);
     }
+    if (timeline_ != nullptr && timeline_->wants(now)) {
+      timeline_->sample_links(probes_, now);
+      timeline_->sample(probes_, state_.contexts, now);
+    }
+    if (timeline_ != nullptr) state_.log.keep_events(timeline_->wants(now + 1));
     if (shared_.moved) {
       last_moved_ = now;
     } else if (now - last_moved_ >= watchdog_) {
@@ -130,6 +137,7 @@ class PinUnit {
   pipeline::Probes probes_;
   std::unique_ptr<pipeline::WaveWriter> waves_;
   Cycle watchdog_, last_moved_ = 0;
+  pipeline::Timeline* timeline_;
   std::function<void(std::uint64_t)> progress_;
   std::uint64_t progress_due_ = kProgressRays;
 };

@@ -16,6 +16,7 @@ pipeline::EngineOptions engine_options(const RunOptions& options) {
   engine.waves_path = options.waves_path;
   engine.waves_first = options.waves_first;
   engine.waves_last = options.waves_last;
+  engine.timeline = options.timeline;
   engine.progress = options.progress;
   return engine;
 }

@@ -13,6 +13,10 @@
 #include "model/pipeline/unit_config.h"
 #include "model/reference/ray_block.h"
 
+namespace ctu::pipeline {
+class Timeline;
+}
+
 namespace ctu::unit {
 
 enum class Mode : std::uint8_t {
@@ -38,6 +42,7 @@ struct RunOptions {
   Source source = Source::Replay;
   std::string waves_path{};                       ///< VCD of the window, when not empty
   std::uint64_t waves_first = 0, waves_last = 0;  ///< cycles, inclusive
+  pipeline::Timeline* timeline = nullptr;         ///< filled with what happens in its window
   std::uint64_t stall_seed = 0;                   ///< not 0: every link refuses at random, for tests
   int stuck_link = -1;                            ///< this link never takes anything: a planted deadlock, for tests
   std::function<void(std::uint64_t rays_done)> progress{};
