@@ -7,6 +7,7 @@
 
 #include "model/base/version.h"
 #include "sim/commands.h"
+#include "sim/sweep/sweep_command.h"
 
 namespace ctu::sim {
 namespace {
@@ -112,6 +113,7 @@ struct Parsed {
   bool config_plain = false;
   BenchArgs bench;
   CheckArgs check;
+  sweep::SweepArgs sweep;
   int exit_code = 0;
 };
 
@@ -561,6 +563,7 @@ int run_cli(int argc, const char* const* argv) {
   add_config(app, parsed);
   add_bench(app, parsed);
   add_check(app, parsed);
+  sweep::add_sweep(app, parsed.sweep, parsed.exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

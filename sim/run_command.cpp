@@ -16,13 +16,6 @@
 namespace ctu::sim {
 namespace {
 
-void check_engine(const std::string& engine) {
-  for (const char* known : {"cycle", "reference", "rtl", "both"})
-    if (engine == known) return;
-  throw Error("--engine", fmt::format("there is no engine \"{}\" in this version", engine),
-              "give cycle, reference, rtl or both");
-}
-
 /// Options of the timed unit that another engine would leave unheeded.
 void check_engine_heeds(const RunArgs& args) {
   const auto refuse = [&](const char* option, const char* why, const char* remedy) {
@@ -108,7 +101,7 @@ bool is_right(const RunRecord& record) {
 
 int run_command(const RunArgs& args) {
   RunPlan plan;
-  check_engine(args.engine);
+  require_engine(args.engine);
   check_engine_heeds(args);
   plan.engine = args.engine;
   plan.config = load_config(args.unit.config_path, args.unit.sets);

@@ -1,3 +1,5 @@
+#include "sim/run_json.h"
+
 #include <fstream>
 
 #include <fmt/format.h>
@@ -6,7 +8,6 @@
 #include "model/base/error.h"
 #include "model/base/version.h"
 #include "sim/config_file.h"
-#include "sim/run_record.h"
 
 namespace ctu::sim {
 namespace {
@@ -90,7 +91,7 @@ void check_writable(const std::string& path) {
     throw Error(path, "the result cannot be written there", "check the folder and its permissions");
 }
 
-void write_json(const RunRecord& record, const std::string& path) {
+std::string json_text(const RunRecord& record) {
   ordered_json json;
   json["format"] = "ctusim-result";
   json["version"] = kResultVersion;
@@ -117,9 +118,12 @@ void write_json(const RunRecord& record, const std::string& path) {
   }
   json["counters"] = counters_json(record.result);
   json["config"] = config_json(record.config);
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+}
 
+void write_json(const RunRecord& record, const std::string& path) {
   std::ofstream out(path);
-  out << json.dump(2, ' ', false, ordered_json::error_handler_t::replace) << '\n';
+  out << json_text(record) << '\n';
   if (!out.flush()) throw Error(path, "the result could not be written", "check the folder and the free space");
 }
 

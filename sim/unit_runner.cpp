@@ -103,6 +103,13 @@ unit::RunOptions run_options(const UnitArgs& args) {
   return options;
 }
 
+void require_engine(const std::string& engine) {
+  for (const char* known : {"cycle", "reference", "rtl", "both"})
+    if (engine == known) return;
+  throw Error("--engine", fmt::format("there is no engine \"{}\" in this version", engine),
+              "give cycle, reference, rtl or both");
+}
+
 RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
   const cull::MaskTester tester = trace.tester(plan.config.mask_test.design);
   RunRecord record;

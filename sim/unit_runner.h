@@ -16,6 +16,9 @@ unit::Source parse_source(const std::string& name);
 /// Mode and source.
 unit::RunOptions run_options(const UnitArgs& args);
 
+/// Error on what is no engine of run_plan.
+void require_engine(const std::string& engine);
+
 struct RunPlan {
   std::string engine = "cycle";  ///< or "reference", "rtl", "both"
   pipeline::UnitConfig config;
