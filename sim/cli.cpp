@@ -163,8 +163,10 @@ void add_run(CLI::App& app, Parsed& parsed) {
   command->add_option("trace", parsed.run.trace, "trace file")->required();
   add_unit_options(*command, parsed.run.unit);
   command
-      ->add_option("--engine", parsed.run.engine,
-                   "cycle: the timed unit; reference: untimed; rtl: the unit in gates; both: in lock step")
+      ->add_option(
+          "--engine", parsed.run.engine,
+          "cycle: the timed unit; reference: untimed; rtl: the unit in gates; both: in lock step; estimate: in "
+          "closed form")
       ->capture_default_str();
   command->add_option("--json", parsed.run.json_path, "write the result here");
   command->add_option("--waves", parsed.run.waves_path, "write a waveform (VCD) of --window here");

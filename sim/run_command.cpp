@@ -21,12 +21,14 @@ void check_engine_heeds(const RunArgs& args) {
   const auto refuse = [&](const char* option, const char* why, const char* remedy) {
     throw Error(option, fmt::format("engine {} {}", args.engine, why), remedy);
   };
-  if (!args.waves_path.empty() && (args.engine == "rtl" || args.engine == "reference"))
+  if (!args.waves_path.empty() && args.engine != "cycle" && args.engine != "both")
     refuse("--waves", "draws none", "give --engine cycle or both");
   if (!args.timeline_path.empty() && args.engine != "cycle")
     refuse("--timeline", "draws none", "give --engine cycle; it takes the same cycles as rtl");
   if (args.engine == "cycle") return;
   if (args.gives_mode) refuse("--mode", "has one mode only", "leave it out, or give --engine cycle");
+  if (args.gives_source && args.engine == "estimate")
+    refuse("--source", "counts recorded outcomes", "leave it out, or give --engine cycle");
   if (args.gives_source) refuse("--source", "computes all outcomes", "leave it out, or give --engine cycle");
 }
 

@@ -76,12 +76,20 @@ ordered_json timed_json(const RunRecord& record) {
   json["cycles"] = record.result.cycles;
   json["cycles_per_ray"] = record.cycles_per_ray();
   json["simulated_cycles_per_second"] = record.cycles_per_second();
-  json["event_log_hash"] = fmt::format("{:016x}", record.result.event_log_hash);
+  json["event_log_hash"] =
+      record.runs_rays() ? ordered_json(fmt::format("{:016x}", record.result.event_log_hash)) : ordered_json();
   json["stages"] = stages_json(record.result);
   json["ray_latency_cycles_sum"] = record.result.ray_latency_sum;
   json["ray_cycles"] = causes_json(record.result.ray_cycles);
   json["left_out"] = record.result.left_out;
   return json;
+}
+
+ordered_json approximation_json(const Approximation& a, const std::string& engine) {
+  if (engine == "estimate") return {{"limited_by", a.limit}};
+  return {{"confidence_percent", a.confidence}, {"cycles_low", a.cycles_low},
+          {"cycles_high", a.cycles_high},       {"chunks", a.chunks},
+          {"simulated_rays", a.simulated_rays}, {"simulated_cycles", a.simulated_cycles}};
 }
 
 }  // namespace
@@ -103,8 +111,8 @@ std::string json_text(const RunRecord& record) {
   json["scene"] = record.scene;
   json["config_hash"] = record.config_hash;
   json["rays"] = record.result.rays;
-  json["wrong_hits"] = record.result.wrong_hits;
-  json["other_visits"] = record.result.other_visits;
+  json["wrong_hits"] = record.runs_rays() ? ordered_json(record.result.wrong_hits) : ordered_json();
+  json["other_visits"] = record.runs_rays() ? ordered_json(record.result.other_visits) : ordered_json();
   json["intersections_per_ray"] = record.result.counts.intersections_per_ray();
   json["culled_share"] = record.result.counts.culled_share();
   json["wall_seconds"] = record.wall_seconds;
@@ -116,6 +124,7 @@ std::string json_text(const RunRecord& record) {
     json["signals_compared"] = record.twins.signals;
     json["first_difference"] = record.twins.first_difference;
   }
+  if (!record.runs_rays()) json["approximation"] = approximation_json(record.approximation, record.engine);
   json["counters"] = counters_json(record.result);
   json["config"] = config_json(record.config);
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);

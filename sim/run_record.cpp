@@ -21,6 +21,18 @@ void print_twins(const TwinComparison& twins, const Row& row) {
   row("waveforms", fmt::format("{0}.model.vcd, {0}.rtl.vcd", twins.waves));
 }
 
+template <class Row>
+void print_approximation(const RunRecord& r, const Row& row) {
+  const Approximation& a = r.approximation;
+  if (r.engine == "estimate") row("limited by", a.limit);
+  if (r.engine != "sampled") return;
+  row("cycles lie in",
+      fmt::format("{:.0f} to {:.0f}, +-{:.2f} %, with a probability of {:g} %", a.cycles_low, a.cycles_high,
+                  100 * ratio(a.cycles_high - a.cycles_low, 2.0 * double(r.result.cycles)), a.confidence));
+  row("sample", fmt::format("{} chunks, {} rays simulated ({:.2f} %), {} cycles", a.chunks, a.simulated_rays,
+                            percent(a.simulated_rays, r.result.rays), a.simulated_cycles));
+}
+
 void print_summary(const RunRecord& r) {
   const auto& counts = r.result.counts;
   const auto row = [](std::string_view name, const std::string& value) { fmt::print("{:<24}{}\n", name, value); };
@@ -29,7 +41,7 @@ void print_summary(const RunRecord& r) {
   row("mask test", r.design);
   row("config", r.config_hash);
   row("rays", std::to_string(r.result.rays));
-  row("wrong hits", std::to_string(r.result.wrong_hits));
+  if (r.runs_rays()) row("wrong hits", std::to_string(r.result.wrong_hits));
   if (r.source == "exec") row("other visits", std::to_string(r.result.other_visits) + " than recorded");
   row("intersections per ray",
       fmt::format("{:.3f} ({:.3f} box tests of 4, {:.3f} triangle tests)", counts.intersections_per_ray(),
@@ -49,6 +61,7 @@ void print_summary(const RunRecord& r) {
     row("latency of a ray",
         fmt::format("{:.1f} cycles", ratio(double(r.result.ray_latency_sum), double(r.result.rays))));
   if (r.engine == "both") print_twins(r.twins, row);
+  if (!r.runs_rays()) print_approximation(r, row);
   row("simulation speed",
       fmt::format("{:.3g} rays/s{} in {:.3f} s", r.rays_per_second(),
                   r.timed() ? fmt::format(", {:.3g} cycles/s", r.cycles_per_second()) : "", r.wall_seconds));
@@ -103,7 +116,7 @@ double RunRecord::rays_per_second() const { return ratio(double(result.rays), wa
 void print_record(const RunRecord& record) {
   print_summary(record);
   if (record.timed()) print_stages(record.result);
-  if (record.engine == "cycle" || record.engine == "both") {
+  if (record.engine != "rtl" && record.timed()) {
     print_ray_cycles(record.result);
     print_counters(record.result);
     if (!record.result.left_out.empty()) fmt::print("\nleft out, because this trace does not need it:\n");

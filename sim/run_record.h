@@ -15,8 +15,16 @@ struct TwinComparison {
   std::string waves;  ///< with a difference: PREFIX of both waveforms around it, PREFIX.model.vcd and PREFIX.rtl.vcd
 };
 
+/// Of engines "estimate" and "sampled".
+struct Approximation {
+  std::string limit;  ///< estimate: the stage that limits, or "contexts"
+  /// sampled: the interval that holds the cycles of the whole run with this probability, in percent.
+  double confidence = 0, cycles_low = 0, cycles_high = 0;
+  std::uint64_t chunks = 0, simulated_rays = 0, simulated_cycles = 0;  ///< sampled: warm-up included
+};
+
 struct RunRecord {
-  std::string engine;  ///< "reference" (untimed: no cycles), "cycle", "rtl", or "both"
+  std::string engine;  ///< "reference" (untimed: no cycles), "cycle", "rtl", "both", "estimate" or "sampled"
   std::string mode;    ///< of the cycle engine: "plain", "batch", "cycle", "pins"
   std::string source;  ///< "replay" or "exec"
   std::string trace_path, trace_hash, scene;
@@ -26,10 +34,13 @@ struct RunRecord {
   std::string design;
   pipeline::UnitResult result;
   TwinComparison twins;
+  Approximation approximation;
   double wall_seconds = 0;       ///< of the simulation alone, without loading
   double processor_seconds = 0;  ///< likewise, of one core: what other programs take of a shared machine is not in it
 
   bool timed() const { return engine != "reference"; }
+  /// Whether every ray was run and its hit checked.
+  bool runs_rays() const { return engine != "estimate" && engine != "sampled"; }
   double cycles_per_ray() const;
   double cycles_per_second() const;
   double rays_per_second() const;

@@ -20,7 +20,7 @@ unit::RunOptions run_options(const UnitArgs& args);
 void require_engine(const std::string& engine);
 
 struct RunPlan {
-  std::string engine = "cycle";  ///< or "reference", "rtl", "both"
+  std::string engine = "cycle";  ///< or "reference", "rtl", "both", "estimate"
   pipeline::UnitConfig config;
   unit::RunOptions options;
   traces::RayRange range;

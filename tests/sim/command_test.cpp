@@ -377,6 +377,7 @@ TEST_F(CommandTest, rays_in_packets_find_the_same_hits_with_every_engine_and_sou
   expect_refused("run together.ctut --set packet_cull.packets=0", "packet_cull.packets");
   for (const std::string engine : {"rtl", "both"})
     expect_refused("run together.ctut --engine " + engine, "packet_cull");
+  expect_refused("run together.ctut --engine estimate", "packets");
   expect_refused("trace slice together.ctut -o x.ctut --first 5 --rays 16", "cut a packet in two");
   EXPECT_EQ(ctusim("trace slice together.ctut -o part.ctut --first 8 --rays 16").exit_code, 0);
   EXPECT_EQ(ctusim("run part.ctut").exit_code, 0);
@@ -414,11 +415,11 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("run hair.ctut --window 5", "--window");
   expect_refused("run hair.ctut --engine hardware", "--engine");
   expect_refused("run hair.ctut --mode turbo", "--mode");
-  for (const std::string engine : {"reference", "rtl", "both"}) {
+  for (const std::string engine : {"reference", "rtl", "both", "estimate"}) {
     expect_refused("run hair.ctut --mode plain --engine " + engine, "--mode: engine " + engine);
     expect_refused("run hair.ctut --source exec --engine " + engine, "--source: engine " + engine);
   }
-  for (const std::string engine : {"reference", "rtl"})
+  for (const std::string engine : {"reference", "rtl", "estimate"})
     expect_refused("run hair.ctut --waves w.vcd --window 0:9 --engine " + engine, "--waves: engine " + engine);
   expect_refused("record nowhere.obj -o x.ctut", "nowhere.obj");
   expect_refused("paper all --quick --page nowhere.md", "nowhere.md");
