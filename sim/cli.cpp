@@ -145,6 +145,10 @@ void add_record(CLI::App& app, Parsed& parsed) {
                    "bytes that a triangle starts at a multiple of")
       ->capture_default_str();
   command
+      ->add_option("--trees", parsed.record.trees,
+                   "lights that shadow rays get a tree of their own for, at most, 1 to 255; 0: one tree for all rays")
+      ->capture_default_str();
+  command
       ->add_option("--packets", parsed.record.packets, "rays that enter the tree together, 4 to 64; 0: every ray alone")
       ->capture_default_str();
   command->add_option("--packet-entries", parsed.record.packet_entries,

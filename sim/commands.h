@@ -54,6 +54,7 @@ struct RecordArgs {
   std::uint32_t node_alignment_bytes = 4, triangle_alignment_bytes = 4;
   std::uint32_t box_bits = 32;  ///< of a coordinate of a node's boxes
   bool primitive_boxes = false;
+  int trees = 0;                                     ///< local trees at most; 0: one tree for all rays
   int packets = 0;                                   ///< rays of a packet; 0: rays travel alone
   std::optional<int> packet_entries, packet_window;  ///< none: as RayPackets has it
   std::string packet_forming;                        ///< empty: as they come

@@ -33,9 +33,7 @@ double cycles_at(const UnitResult& result, std::initializer_list<Place> places) 
 }
 
 double counter(const UnitResult& result, std::string_view name) {
-  for (const auto& counter : result.counters)
-    if (counter.name == name) return static_cast<double>(counter.value);
-  return 0;
+  return static_cast<double>(result.counter(name).value_or(0));
 }
 
 /// Cycles that a node spends in the test of masks when nobody else is there and none of its lanes is asked.

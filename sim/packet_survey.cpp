@@ -10,9 +10,7 @@ namespace ctu::sim {
 namespace {
 
 std::uint64_t counter(const pipeline::UnitResult& result, const std::string& name) {
-  for (const pipeline::Counter& one : result.counters)
-    if (one.name == name) return one.value;
-  return 0;
+  return result.counter(name).value_or(0);
 }
 
 RaySample in_order(const RaySample& sample, const std::vector<std::uint32_t>& order) {

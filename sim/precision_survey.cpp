@@ -23,9 +23,7 @@ RecordedTree tree_of(const accel::Bvh4& bvh, std::uint32_t box_bits, int threads
 }
 
 std::uint64_t counter(const pipeline::UnitResult& result, const std::string& name) {
-  const auto found = std::find_if(result.counters.begin(), result.counters.end(),
-                                  [&](const pipeline::Counter& one) { return one.name == name; });
-  return found == result.counters.end() ? 0 : found->value;
+  return result.counter(name).value_or(0);
 }
 
 class Surveyor {

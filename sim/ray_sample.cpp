@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/base/parallel.h"
+#include "model/reference/block_walk.h"
 
 namespace ctu::sim {
 namespace {
@@ -78,7 +79,7 @@ RaySample sample_rays(const traces::RayGenerator& generator, const reference::Tr
 
 SampleFeed::SampleFeed(const RaySample& sample, const accel::Bvh4& bvh, const cull::ObjectMasks* masks,
                        const cull::MaskTester& tester, const reference::PacketPlan& packets)
-    : sample_(sample), bvh_(bvh), packets_(packets), traversal_(bvh, masks, tester) {}
+    : sample_(sample), packets_(packets), traversal_(bvh, masks, tester) {}
 
 std::shared_ptr<const reference::RayBlock> SampleFeed::next() {
   if (next_ray_ == sample_.rays.size()) return nullptr;
@@ -88,14 +89,11 @@ std::shared_ptr<const reference::RayBlock> SampleFeed::next() {
   for (; next_ray_ < last; ++next_ray_) {
     block->rays.push_back(sample_.rays[next_ray_]);
     block->expected.push_back(sample_.hits[next_ray_]);
-    if (!packets_.any()) traversal_.trace(sample_.rays[next_ray_], &block->steps);
   }
-  if (packets_.any()) {
-    const auto rays = static_cast<std::uint32_t>(block->rays.size());
-    const reference::PacketWalk walk(bvh_, packets_, block->rays, reference::cut_packets(rays, packets_.size));
-    reference::expect_from_entries(block->rays, walk.trace(traversal_, block->steps), block->expected);
-    block->packets = walk.list();
-  }
+  if (packets_.any())
+    block->packets = reference::cut_packets(static_cast<std::uint32_t>(block->rays.size()), packets_.size);
+  const std::vector<intersect::Hit> found = reference::walk_block(traversal_, packets_, *block);
+  if (packets_.any()) reference::expect_any_hits_found(block->rays, found, block->expected);
   return block;
 }
 

@@ -48,7 +48,6 @@ class SampleFeed : public reference::RayFeed {
 
  private:
   const RaySample& sample_;
-  const accel::Bvh4& bvh_;
   reference::PacketPlan packets_;
   reference::Traversal traversal_;
   std::size_t next_ray_ = 0;

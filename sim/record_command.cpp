@@ -144,6 +144,10 @@ traces::RecordOptions recorder_options(const RecordArgs& args) {
   options.layout.node_alignment_bytes = args.node_alignment_bytes;
   options.layout.triangle_alignment_bytes = args.triangle_alignment_bytes;
   options.packets = packets_of(args);
+  options.trees.most_areas = args.trees;
+  traces::check(options.trees);
+  if (options.trees.any() && args.culling == "auto")
+    throw Error("--trees", "--culling auto foretells rays that all walk one tree", "give --culling on or off");
   require_box_bits(args.box_bits);
   options.layout.box_bits = args.box_bits;
   options.layout.primitive_boxes = args.primitive_boxes;
@@ -197,6 +201,10 @@ int record_command(const RecordArgs& args) {
     fmt::print("{} packets, {:.2f} nodes visited and {:.2f} entries each\n", summary.packets,
                double(summary.packet_visits) / double(summary.packets),
                double(summary.packet_entries) / double(summary.packets));
+  if (options.trees.any())
+    fmt::print("{} local trees; {} rays walk one, {:.3f} unculled tests a ray where one tree takes {:.3f}\n",
+               summary.trees - 1, summary.local_rays, double(summary.own_tests) / double(summary.rays),
+               double(summary.global_tests) / double(summary.rays));
   if (summary.bare_nodes != 0)
     fmt::print("{} nodes carry no masks, because all of theirs are full\n", summary.bare_nodes);
   if (summary.compression_entries != 0)
@@ -223,6 +231,9 @@ int trace_info_command(const TraceArgs& args) {
   if (m.packets.any())
     row("packets", fmt::format("of {} rays, up to {} entries; rays of a window of {} by {}", m.packets.plan.size,
                                m.packets.plan.most_entries, m.packets.window, reference::to_string(m.packets.forming)));
+  if (m.trees.any())
+    row("trees", fmt::format("{} in the image, {} of them local; up to {} asked for", m.image.shape.trees(),
+                             m.image.shape.trees() - 1, m.trees.most_areas));
   row("masks", describe_masks(reader));
   if (!m.culling.choice.empty()) print_culling(m.culling);
   if (const std::uint32_t bare = m.image.shape.layout.bare_nodes; bare != 0)
@@ -261,6 +272,7 @@ int trace_head_command(const TraceArgs& args) {
                  hit.primitive == intersect::kNoPrimitive
                      ? "miss"
                      : fmt::format("primitive {} at t {} u {} v {}", hit.primitive, hit.t, hit.u, hit.v));
+      if (!block->trees.empty()) fmt::print("  walks tree {}\n", block->trees[i].tree);
       if (block->packets.packets() != 0) print_packet(*block, i);
       for (auto s = block->steps.first_step[i]; s < block->steps.first_step[i + 1]; ++s)
         print_step(block->steps.steps[s], trace.bvh());

@@ -33,6 +33,17 @@ void print_approximation(const RunRecord& r, const Row& row) {
                             percent(a.simulated_rays, r.result.rays), a.simulated_cycles));
 }
 
+template <class Row>
+void print_saved_on_the_way(const pipeline::UnitResult& result, const Row& row) {
+  if (const auto saved = result.counter("packets.node_tests_saved"))
+    row("saved by packets", fmt::format("{} box tests of single rays, by the recording", *saved));
+  const auto own = result.counter("trees.own_tests"), global = result.counter("trees.global_tests");
+  if (!own || !global) return;
+  row("saved by local trees",
+      fmt::format("{} box and primitive tests of {} without culling, by the recording",
+                  static_cast<std::int64_t>(*global) - static_cast<std::int64_t>(*own), *global));
+}
+
 void print_summary(const RunRecord& r) {
   const auto& counts = r.result.counts;
   const auto row = [](std::string_view name, const std::string& value) { fmt::print("{:<24}{}\n", name, value); };
@@ -52,6 +63,7 @@ void print_summary(const RunRecord& r) {
     row("saved by ray boxes",
         fmt::format("{} primitive tests, {:.2f} % of those in the leaves visited", counts.boxed_out,
                     percent(counts.boxed_out, counts.boxed_out + counts.triangle_tests)));
+  print_saved_on_the_way(r.result, row);
   if (r.engine != "rtl") row("passed as uncertain", fmt::format("{} box hits", counts.uncertain));
   if (r.timed()) {
     row("cycles", std::to_string(r.result.cycles));

@@ -6,7 +6,7 @@
 
 #include "model/base/error.h"
 #include "model/base/nearest.h"
-#include "model/reference/packet_walk.h"
+#include "model/reference/block_walk.h"
 #include "model/reference/traversal.h"
 #include "sim/config_file.h"
 #include "sim/ladder/estimate.h"
@@ -53,20 +53,16 @@ pipeline::UnitResult run_reference(const LoadedTrace& trace, const cull::MaskTes
   pipeline::UnitResult result;
   constexpr std::size_t kListedWrongHits = 16;
   while (const auto block = feed.next()) {
-    reference::StepList steps;
-    std::vector<intersect::Hit> in_packets;
-    if (feed.packets().any())
-      in_packets =
-          reference::PacketWalk(trace.bvh(), feed.packets(), block->rays, block->packets).trace(traversal, steps);
-    for (std::size_t i = 0; i < block->rays.size(); ++i) {
-      const intersect::Hit hit = in_packets.empty() ? traversal.trace(block->rays[i], &steps) : in_packets[i];
+    reference::RayBlock walked = *block;
+    const std::vector<intersect::Hit> hits = reference::walk_block(traversal, feed.packets(), walked);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
       ++result.rays;
-      if (same_bits(hit, block->expected[i])) continue;
+      if (same_bits(hits[i], block->expected[i])) continue;
       ++result.wrong_hits;
       if (result.first_wrong.size() < kListedWrongHits)
-        result.first_wrong.push_back({block->first_ray + i, block->expected[i], hit});
+        result.first_wrong.push_back({block->first_ray + i, block->expected[i], hits[i]});
     }
-    result.counts += reference::count_steps(steps, 0, steps.rays());
+    result.counts += reference::count_steps(walked.steps, 0, walked.steps.rays());
   }
   return result;
 }

@@ -62,17 +62,24 @@ Section image_section() {
   return {"image", {{"words", "u32", Per::Word, "4 bytes", "the bytes the unit fetches, four by four"}}};
 }
 
-Section rays_section() {
-  return {"rays",
-          {{"origin_x", "f32", Per::Ray, "scene units", "origin"},
-           {"origin_y", "f32", Per::Ray, "scene units", "origin"},
-           {"origin_z", "f32", Per::Ray, "scene units", "origin"},
-           {"tmin", "f32", Per::Ray, "direction lengths", "first point of the ray"},
-           {"direction_x", "f32", Per::Ray, "scene units", "direction, of any length"},
-           {"direction_y", "f32", Per::Ray, "scene units", "direction, of any length"},
-           {"direction_z", "f32", Per::Ray, "scene units", "direction, of any length"},
-           {"tmax", "f32", Per::Ray, "direction lengths", "last point of the ray; may be infinite"},
-           {"kind", "u8", Per::Ray, "", "0: closest hit, 1: any hit"}}};
+Section rays_section(bool with_trees) {
+  Section section{"rays",
+                  {{"origin_x", "f32", Per::Ray, "scene units", "origin"},
+                   {"origin_y", "f32", Per::Ray, "scene units", "origin"},
+                   {"origin_z", "f32", Per::Ray, "scene units", "origin"},
+                   {"tmin", "f32", Per::Ray, "direction lengths", "first point of the ray"},
+                   {"direction_x", "f32", Per::Ray, "scene units", "direction, of any length"},
+                   {"direction_y", "f32", Per::Ray, "scene units", "direction, of any length"},
+                   {"direction_z", "f32", Per::Ray, "scene units", "direction, of any length"},
+                   {"tmax", "f32", Per::Ray, "direction lengths", "last point of the ray; may be infinite"},
+                   {"kind", "u8", Per::Ray, "", "0: closest hit, 1: any hit"}}};
+  if (with_trees) {
+    section.columns.push_back({"tree", "u8", Per::Ray, "", "that the ray walks; 0 is over the whole scene"});
+    section.columns.push_back({"own_tests", "u32", Per::Ray, "tests", "of boxes and primitives there, unculled"});
+    section.columns.push_back(
+        {"global_tests", "u32", Per::Ray, "tests", "of boxes and primitives in tree 0, unculled"});
+  }
+  return section;
 }
 
 Section hits_section() {

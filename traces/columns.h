@@ -33,7 +33,8 @@ std::size_t type_bytes(const std::string& type);
 
 /// The sections of this format version, in file order. Steps have one section for each recorded design.
 Section image_section();
-Section rays_section();
+/// `with_trees`: rays walk one of several trees.
+Section rays_section(bool with_trees);
 Section hits_section();
 /// What steps have beside those of every trace.
 struct StepColumns {

@@ -17,6 +17,7 @@ inline constexpr std::uint16_t kFormatMajor = 2;  ///< raised when old readers w
 inline constexpr std::uint16_t kFormatMinor = 2;  ///< raised when something is added that old readers may skip
 /// Of files whose rays travel in packets, or whose image has spheres or primitive boxes; no others differ.
 inline constexpr std::uint16_t kFormatMinorOfExtensions = 3;
+inline constexpr std::uint16_t kFormatMinorOfTrees = 4;  ///< of files whose rays walk several trees
 
 inline constexpr std::uint32_t kSkippableMagic = 0x184D2A5C;
 inline constexpr std::size_t kSkippableHeaderBytes = 8;

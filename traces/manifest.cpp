@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "model/accel/forest.h"
 #include "model/base/error.h"
 #include "model/reference/entry_list.h"
 #include "traces/file.h"
@@ -108,6 +109,7 @@ Json to_json_value(const ImageInfo& info) {
   if (image.layout.box_bits != accel::kFullBoxBits) json["box_bits"] = image.layout.box_bits;
   if (image.layout.primitive_boxes) json["primitive_boxes"] = true;
   if (image.sphere_count != 0) json["sphere_count"] = image.sphere_count;
+  if (!image.further_roots.empty()) json["further_roots"] = image.further_roots;
   return json;
 }
 
@@ -238,6 +240,15 @@ class Reader {
     for (const Json& item : value) {
       if (!item.is_string()) fail(fmt::format("\"{}\" holds more than text", key));
       to.push_back(item.get<std::string>());
+    }
+  }
+  void get(const char* key, std::vector<std::uint32_t>& to) const {
+    const Json& value = at(key);
+    if (!value.is_array()) fail(fmt::format("\"{}\" is not a list", key));
+    for (const Json& item : value) {
+      if (!item.is_number_unsigned() || item.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max())
+        fail(fmt::format("\"{}\" holds more than whole numbers of 32 bits", key));
+      to.push_back(item.get<std::uint32_t>());
     }
   }
   void get_bits(const char* key, float& to) const {
@@ -380,6 +391,7 @@ void read(const Reader& from, ImageInfo& to) {
   if (from.has("box_bits")) from.get("box_bits", image.layout.box_bits);
   if (from.has("primitive_boxes")) from.get("primitive_boxes", image.layout.primitive_boxes);
   if (from.has("sphere_count")) from.get("sphere_count", image.sphere_count);
+  if (from.has("further_roots")) from.get("further_roots", image.further_roots);
 }
 
 void read(const Reader& from, DesignCounts& to) {
@@ -432,6 +444,7 @@ Manifest read_manifest(const Json& json, const std::string& path) {
   read(from.object("scene"), to.scene);
   read(from.object("rays"), to.rays);
   if (from.has("packets")) read(from.object("packets"), to.packets);
+  if (from.has("trees")) from.object("trees").get("most_areas", to.trees.most_areas, 1, accel::kMostTrees - 1);
   read(from.object("build"), to.build);
   read(from.object("masks"), to.masks);
   if (from.has("culling")) read(from.object("culling"), to.culling);
@@ -462,6 +475,7 @@ const DesignCounts* Manifest::find(cull::Design design) const {
 }
 
 std::uint16_t Manifest::format_minor() const {
+  if (trees.any()) return kFormatMinorOfTrees;
   const bool extended = packets.any() || image.shape.sphere_count != 0 || image.shape.layout.primitive_boxes;
   return extended ? kFormatMinorOfExtensions : kFormatMinor;
 }
@@ -479,6 +493,7 @@ std::string to_json(const Manifest& manifest) {
                {"designs", to_json_list(manifest.designs)},
                {"differences", to_json_list(manifest.differences)}};
   if (manifest.packets.any()) json["packets"] = to_json_value(manifest.packets);
+  if (manifest.trees.any()) json["trees"] = {{"most_areas", manifest.trees.most_areas}};
   if (!manifest.culling.choice.empty()) json["culling"] = to_json_value(manifest.culling);
   if (!manifest.cut_from.empty()) {
     json["cut_from"] = manifest.cut_from;

@@ -15,6 +15,7 @@
 #include "traces/culling_choice.h"
 #include "traces/ray_options.h"
 #include "traces/ray_packets.h"
+#include "traces/ray_trees.h"
 
 namespace ctu::traces {
 
@@ -55,6 +56,7 @@ struct Manifest {
   SceneInfo scene;
   RayOptions rays;
   RayPackets packets;
+  RayTrees trees;
   accel::BuildOptions build;
   cull::MaskOptions masks;
   CullingChoice culling;  ///< how it was decided which nodes carry masks; of no effect on what the trace is

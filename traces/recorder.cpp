@@ -10,10 +10,12 @@
 
 #include <fmt/format.h>
 
+#include "model/accel/forest.h"
 #include "model/base/error.h"
 #include "model/base/parallel.h"
 #include "model/cull/mask_test.h"
 #include "model/cull/object_masks.h"
+#include "model/reference/block_walk.h"
 #include "model/reference/packet_walk.h"
 #include "model/reference/traversal.h"
 #include "traces/mask_set.h"
@@ -73,6 +75,7 @@ Manifest make_manifest(const scene::Scene& scene, const RecordOptions& options) 
   manifest.scene.report = scene.report;
   manifest.rays = options.rays;
   manifest.packets = options.packets;
+  manifest.trees = options.trees;
   manifest.build = options.build;
   manifest.masks = options.masks;
   for (const auto& [design, stored] : designs_of(options)) manifest.designs.push_back({design, stored, {}, 0});
@@ -85,13 +88,14 @@ struct Outcome {
   std::vector<DesignCounts> designs;
   std::vector<Difference> differences;  ///< rays counted from the block's first
   std::uint64_t packets = 0, packet_visits = 0, packet_entries = 0;
+  std::uint64_t local_rays = 0, own_tests = 0, global_tests = 0;
 };
 
 /// The elements in another order.
 template <class T>
 std::vector<T> reordered(const std::vector<T>& all, const std::vector<std::uint32_t>& order) {
   std::vector<T> out;
-  out.reserve(order.size());
+  out.reserve(all.size());
   for (const std::uint32_t i : order) out.push_back(all[i]);
   return out;
 }
@@ -99,69 +103,86 @@ std::vector<T> reordered(const std::vector<T>& all, const std::vector<std::uint3
 /// Traces blocks of paths on any thread.
 class BlockTracer {
  public:
-  /// `expected`: without any culling. `ray_boxes`: the cullers have them.
+  /// `expected`: without any culling. `local`: null where all rays walk one tree.
   BlockTracer(const RayGenerator& generator, const std::vector<std::unique_ptr<Culler>>& cullers,
-              const reference::Traversal& expected, const accel::Bvh4& bvh, const RayPackets& packets, bool ray_boxes)
+              const reference::Traversal& expected, const LocalTrees* local, const RecordOptions& options)
       : generator_(generator),
         cullers_(cullers),
         expected_(expected),
-        bvh_(bvh),
-        packets_(packets),
-        ray_boxes_(ray_boxes) {}
+        local_(local),
+        packets_(options.packets),
+        ray_boxes_(options.layout.primitive_boxes) {}
 
   Outcome trace(std::uint64_t first, std::uint64_t last, BlockEncoder& encoder) const {
-    std::vector<intersect::Ray> rays;
-    std::vector<intersect::Hit> hits;
     std::vector<StepList> steps(cullers_.size());
     StepList* without_culling = nullptr;  // filled on the way, as that walk gives the expected hits
     for (std::size_t i = 0; i < cullers_.size(); ++i)
-      if (!culls(*cullers_[i]) && !packets_.any()) without_culling = &steps[i];
-    const auto closest = [&](const intersect::Ray& ray, bool recorded) {
-      return expected_.trace(ray, recorded ? without_culling : nullptr);
-    };
-    generator_.generate(first, last, closest, rays, hits);
+      if (!walks_otherwise(*cullers_[i])) without_culling = &steps[i];
+    reference::RayBlock block = generate(first, last, without_culling);
 
     Outcome outcome;
-    std::optional<reference::PacketWalk> packets;
-    if (packets_.any()) {
-      const std::vector<std::uint32_t> order = reference::packet_order(rays, packets_.how());
-      rays = reordered(rays, order), hits = reordered(hits, order);
-      packets.emplace(bvh_, packets_.plan, rays,
-                      reference::cut_packets(static_cast<std::uint32_t>(rays.size()), packets_.plan.size));
-      StepList unused;
-      reference::expect_from_entries(rays, packets->trace(expected_, unused), hits);
-      outcome.packets = packets->list().packets();
-      outcome.packet_visits = packets->list().visits.size();
-      outcome.packet_entries = packets->list().entries.size();
-    }
     std::vector<StepList> stored;
     for (std::size_t i = 0; i < cullers_.size(); ++i) {
       const Culler& culler = *cullers_[i];
       DesignCounts counts{culler.design, culler.stored, {}, 0};
-      if (packets)
-        compare(culler.design, hits, packets->trace(culler.traversal, steps[i]), counts, outcome.differences);
-      else if (culls(culler))
-        compare(culler.design, hits, trace_alone(culler, rays, steps[i]), counts, outcome.differences);
+      if (walks_otherwise(culler)) {
+        compare(culler.design, block.expected, reference::walk_block(culler.traversal, packets_.plan, block), counts,
+                outcome.differences);
+        steps[i] = std::move(block.steps);
+      }
       counts.counts = reference::count_steps(steps[i], 0, steps[i].rays());
       outcome.designs.push_back(counts);
-      if (culler.stored)
-        stored.push_back(std::move(steps[i]));
-      else
-        steps[i] = {};
+      if (culler.stored) stored.push_back(std::move(steps[i]));
+      steps[i] = {};
     }
-    outcome.block = packets ? encoder.encode(rays, hits, stored, packets->list()) : encoder.encode(rays, hits, stored);
+    count(block, outcome);
+    outcome.block = encoder.encode(block, stored);
     return outcome;
   }
 
  private:
-  bool culls(const Culler& culler) const { return culler.design != Design::None || ray_boxes_; }
+  /// Rays are not each alone in the tree over the whole scene.
+  bool diverts() const { return packets_.any() || local_ != nullptr; }
+  /// Its walk is another than that which finds the expected hits.
+  bool walks_otherwise(const Culler& culler) const { return culler.design != Design::None || ray_boxes_ || diverts(); }
 
-  static std::vector<intersect::Hit> trace_alone(const Culler& culler, const std::vector<intersect::Ray>& rays,
-                                                 StepList& steps) {
-    std::vector<intersect::Hit> hits;
-    hits.reserve(rays.size());
-    for (const intersect::Ray& ray : rays) hits.push_back(culler.traversal.trace(ray, &steps));
-    return hits;
+  /// The rays as they travel, with what they are expected to find.
+  reference::RayBlock generate(std::uint64_t first, std::uint64_t last, StepList* without_culling) const {
+    reference::RayBlock block;
+    const auto closest = [&](const intersect::Ray& ray, bool recorded) {
+      return expected_.trace(ray, recorded ? without_culling : nullptr);
+    };
+    generator_.generate(first, last, closest, block.rays, block.expected);
+    if (local_ != nullptr) block.trees = local_->choose(expected_, block.rays);
+    if (packets_.any()) form_packets(block);
+    if (diverts()) {
+      const std::vector<intersect::Hit> found = reference::walk_block(expected_, packets_.plan, block);
+      reference::expect_any_hits_found(block.rays, found, block.expected);
+    }
+    return block;
+  }
+
+  void form_packets(reference::RayBlock& block) const {
+    std::vector<std::uint32_t> order = reference::packet_order(block.rays, packets_.how());
+    if (!block.trees.empty()) {
+      put_trees_together(block.trees, packets_.window, order);
+      block.trees = reordered(block.trees, order);
+    }
+    block.rays = reordered(block.rays, order);
+    block.expected = reordered(block.expected, order);
+    block.packets =
+        reference::cut_packets(static_cast<std::uint32_t>(block.rays.size()), packets_.plan.size, block.trees);
+  }
+
+  static void count(const reference::RayBlock& block, Outcome& outcome) {
+    outcome.packets = block.packets.packets();
+    outcome.packet_visits = block.packets.visits.size();
+    outcome.packet_entries = block.packets.entries.size();
+    for (const reference::RayTree& tree : block.trees) {
+      outcome.local_rays += tree.tree != 0;
+      outcome.own_tests += tree.own_tests;
+      outcome.global_tests += tree.global_tests;
+    }
   }
 
   static void compare(Design design, const std::vector<intersect::Hit>& expected,
@@ -177,7 +198,7 @@ class BlockTracer {
   const RayGenerator& generator_;
   const std::vector<std::unique_ptr<Culler>>& cullers_;
   const reference::Traversal& expected_;
-  const accel::Bvh4& bvh_;
+  const LocalTrees* local_;
   const RayPackets& packets_;
   bool ray_boxes_;
 };
@@ -205,6 +226,9 @@ class OrderedSink {
       summary_.packets += outcome.packets;
       summary_.packet_visits += outcome.packet_visits;
       summary_.packet_entries += outcome.packet_entries;
+      summary_.local_rays += outcome.local_rays;
+      summary_.own_tests += outcome.own_tests;
+      summary_.global_tests += outcome.global_tests;
       writer_.add(outcome.block);
       summary_.rays += outcome.block.rays;
       progress();
@@ -238,6 +262,7 @@ class OrderedSink {
 
 void check_options(const RecordOptions& options) {
   check(options.rays);
+  check(options.trees);
   if (options.packets.any()) {
     reference::check(options.packets.plan);
     reference::check(options.packets.how());
@@ -255,6 +280,13 @@ void check_options(const RecordOptions& options) {
       throw Error("record", fmt::format("design {} without masks", cull::to_string(design)), "record design none only");
 }
 
+/// Behind the tree over the whole scene.
+void add_local_trees(const scene::Scene& scene, const RecordOptions& options, RecordedTree& tree) {
+  const RayGenerator generator(scene, options.rays);
+  tree.local = std::make_shared<const LocalTrees>(scene, generator, tree.bvh, options.trees, options.build);
+  for (std::uint32_t i = 0; i < tree.local->count(); ++i) accel::append_tree(tree.bvh, tree.local->tree(i));
+}
+
 }  // namespace
 
 RecordedTree build_tree(const scene::Scene& scene, const RecordOptions& options) {
@@ -262,6 +294,7 @@ RecordedTree build_tree(const scene::Scene& scene, const RecordOptions& options)
   RecordedTree tree;
   auto start = std::chrono::steady_clock::now();
   tree.bvh = accel::build(scene.mesh, options.build);
+  if (options.trees.any()) add_local_trees(scene, options, tree);
   if (options.layout.box_bits != accel::kFullBoxBits)
     accel::quantize_boxes(tree.bvh, options.layout.box_bits, options.threads);
   tree.build_seconds = seconds_since(start);
@@ -306,6 +339,7 @@ RecordSummary record(const scene::Scene& scene, const RecordOptions& options, co
     summary.nodes = image.node_count;
     summary.node_stride_bytes = image.node_stride_bytes;
     summary.triangles = image.triangle_count;
+    summary.trees = image.trees();
     return std::make_unique<TraceWriter>(path, manifest, image, tree.masks.lut.get());
   };
   const std::unique_ptr<TraceWriter> writer = make_writer();
@@ -318,7 +352,7 @@ RecordSummary record(const scene::Scene& scene, const RecordOptions& options, co
   for (const DesignCounts& entry : manifest.designs)
     cullers.push_back(std::make_unique<Culler>(entry.design, entry.stored, options.masks, tree,
                                                layout.primitive_boxes ? &leaf_boxes : nullptr));
-  const BlockTracer tracer(generator, cullers, expected, tree.bvh, options.packets, layout.primitive_boxes);
+  const BlockTracer tracer(generator, cullers, expected, tree.local.get(), options);
 
   OrderedSink sink(*writer, summary);
   const std::uint64_t paths_per_block = std::max(1u, options.rays_per_block / generator.max_rays_per_path());

@@ -11,16 +11,19 @@
 #include "model/cull/options.h"
 #include "model/scene/scene.h"
 #include "traces/culling_choice.h"
+#include "traces/local_trees.h"
 #include "traces/manifest.h"
 #include "traces/mask_set.h"
 #include "traces/ray_options.h"
 #include "traces/ray_packets.h"
+#include "traces/ray_trees.h"
 
 namespace ctu::traces {
 
 struct RecordOptions {
   RayOptions rays;
   RayPackets packets;
+  RayTrees trees;
   accel::BuildOptions build;
   cull::MaskOptions masks;
   bool with_masks = true;   ///< false: nodes carry none, and the only design is None
@@ -39,9 +42,10 @@ struct RecordOptions {
 /// What rays are recorded on.
 struct RecordedTree {
   accel::Bvh4 bvh;
-  MaskSet masks;                 ///< empty when nodes carry none
-  std::uint32_t bare_nodes = 0;  ///< the last ones, laid out without masks
-  CullingChoice culling;         ///< for the manifest, when somebody chose the masks
+  MaskSet masks;                            ///< empty when nodes carry none
+  std::uint32_t bare_nodes = 0;             ///< the last ones, laid out without masks
+  std::shared_ptr<const LocalTrees> local;  ///< which `bvh` holds behind the first tree; null: not asked for
+  CullingChoice culling;                    ///< for the manifest, when somebody chose the masks
   double build_seconds = 0, mask_seconds = 0, compression_seconds = 0;
 };
 
@@ -61,6 +65,9 @@ struct RecordSummary {
   std::uint32_t bare_nodes = 0;
   int compression_entries = 0;                                       ///< 0: masks are not compressed
   std::uint64_t packets = 0, packet_visits = 0, packet_entries = 0;  ///< zero where rays travel alone
+  std::uint32_t trees = 1;
+  /// Rays that walk a local tree; tests of all rays in their trees, and in the one over the whole scene.
+  std::uint64_t local_rays = 0, own_tests = 0, global_tests = 0;
   double build_seconds = 0, mask_seconds = 0, compression_seconds = 0, trace_seconds = 0;
   std::vector<DesignCounts> designs;    ///< stored ones first
   std::vector<Difference> differences;  ///< the first kMaxListedDifferences; all are counted in `designs`

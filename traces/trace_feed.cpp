@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "model/base/error.h"
-#include "model/reference/packet_walk.h"
+#include "model/reference/block_walk.h"
 #include "traces/validate_block.h"
 
 namespace ctu::traces {
@@ -101,14 +101,8 @@ void TraceFeed::refuse_any_hits(const reference::RayBlock& block) const {
 }
 
 void TraceFeed::walk(reference::RayBlock& block) const {
-  block.steps.clear();
-  if (packets().any()) {
-    const reference::PacketWalk walk(*bvh_, packets(), block.rays, block.packets);
-    reference::expect_from_entries(block.rays, walk.trace(*traversal_, block.steps), block.expected);
-    block.packets = walk.list();
-  } else {
-    for (const intersect::Ray& ray : block.rays) traversal_->trace(ray, &block.steps);
-  }
+  const std::vector<intersect::Hit> found = reference::walk_block(*traversal_, packets(), block);
+  if (packets().any()) reference::expect_any_hits_found(block.rays, found, block.expected);
 }
 
 reference::RayBlock part_of(const reference::RayBlock& block, std::uint64_t first, std::uint64_t last) {
@@ -116,6 +110,7 @@ reference::RayBlock part_of(const reference::RayBlock& block, std::uint64_t firs
   part.first_ray = block.first_ray + first;
   part.rays = slice_of(block.rays, first, last);
   part.expected = slice_of(block.expected, first, last);
+  if (!block.trees.empty()) part.trees = slice_of(block.trees, first, last);
   if (block.packets.packets() != 0) part.packets = part_of(block.packets, first, last);
   const reference::StepList& all = block.steps;
   if (all.rays() == 0) return part;

@@ -33,7 +33,7 @@ TraceReader::TraceReader(const std::string& path) : file_(path) {
   index_ = std::move(layout.index);
   manifest_ = manifest_from_json(layout.manifest, path);
   index_columns();
-  std::vector<Section> of_rays = {rays_section(), hits_section()};
+  std::vector<Section> of_rays = {rays_section(manifest_.trees.any()), hits_section()};
   for (const DesignCounts& entry : manifest_.designs) {
     const bool keys = cull::event_class(entry.design) == cull::Design::MaskLut;
     if (entry.stored)
@@ -97,7 +97,7 @@ const TraceReader::ColumnPlace& TraceReader::place(const std::string& section, c
 
 /// The first ray column says where blocks begin.
 void TraceReader::count_rays() {
-  const Section rays = rays_section();
+  const Section rays = rays_section(manifest_.trees.any());
   for (const std::uint32_t entry : place(rays.name, rays.columns.front().name).entries) {
     const std::uint32_t count = index_[entry].elements;
     if (count == 0 || count > kMaxRaysPerBlock)
@@ -229,6 +229,19 @@ void TraceReader::read_rays(ColumnDecoder& decoder, std::uint64_t block, referen
   }
 }
 
+void TraceReader::read_trees(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const {
+  const std::uint64_t count = out.rays.size();
+  const auto tree = read_column<std::uint8_t>(decoder, "rays", "tree", block, count);
+  const auto own = read_column<std::uint32_t>(decoder, "rays", "own_tests", block, count);
+  const auto global = read_column<std::uint32_t>(decoder, "rays", "global_tests", block, count);
+  const std::uint32_t trees = manifest_.image.shape.trees();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (tree[i] >= trees)
+      refuse("rays", fmt::format("ray {} walks tree {}, and there are {}", out.first_ray + i, tree[i], trees));
+    out.trees.push_back({tree[i], own[i], global[i]});
+  }
+}
+
 void TraceReader::read_hits(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const {
   const std::uint64_t count = out.expected.size();
   const std::uint64_t primitives = manifest_.scene.triangles + manifest_.scene.spheres;
@@ -298,6 +311,10 @@ void TraceReader::read_packets(ColumnDecoder& decoder, std::uint64_t block, refe
   }
   if (list.first_ray.back() != out.rays.size())
     refuse(section, fmt::format("packets of {} rays in a block of {}", list.first_ray.back(), out.rays.size()));
+  for (std::uint64_t packet = 0; packet < packets; ++packet)
+    for (std::uint64_t ray = list.first_ray[packet]; ray < list.first_ray[packet + 1]; ++ray)
+      if (tree_of(out.trees, ray) != tree_of(out.trees, list.first_ray[packet]))
+        refuse(section, fmt::format("the packet of ray {} has rays of two trees", out.first_ray + ray));
   for (const std::uint16_t visits : read_column<std::uint16_t>(decoder, section, "visits", block, packets))
     list.first_visit.push_back(list.first_visit.back() + visits);
   for (const std::uint8_t entries : read_column<std::uint8_t>(decoder, section, "entries", block, packets)) {
@@ -321,6 +338,7 @@ reference::RayBlock TraceReader::read_block(std::uint64_t block, std::optional<c
   out.expected.resize(out.rays.size());
   ColumnDecoder decoder;
   read_rays(decoder, block, out);
+  if (manifest_.trees.any()) read_trees(decoder, block, out);
   read_hits(decoder, block, out);
   if (steps_of) read_steps(decoder, block, *steps_of, out);
   if (manifest_.packets.any()) read_packets(decoder, block, out);

@@ -61,6 +61,7 @@ class TraceReader {
   std::vector<T> read_column(ColumnDecoder& decoder, const std::string& section, const char* column,
                              std::uint64_t block, std::optional<std::uint64_t> elements) const;
   void read_rays(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const;
+  void read_trees(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const;
   void read_hits(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const;
   void read_steps(ColumnDecoder& decoder, std::uint64_t block, cull::Design design, reference::RayBlock& out) const;
   void read_packets(ColumnDecoder& decoder, std::uint64_t block, reference::RayBlock& out) const;

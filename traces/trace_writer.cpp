@@ -41,13 +41,19 @@ class ColumnSink {
   std::uint16_t section_, next_ = 0;
 };
 
-void encode_rays(ColumnSink sink, const std::vector<intersect::Ray>& rays) {
+void encode_rays(ColumnSink sink, const std::vector<intersect::Ray>& rays, const std::vector<reference::RayTree>& trees,
+                 bool with_trees) {
   using intersect::Ray;
+  using reference::RayTree;
   for (int axis = 0; axis < 3; ++axis) sink.add<float>(rays, [=](const Ray& ray) { return ray.origin[axis]; });
   sink.add<float>(rays, [](const Ray& ray) { return ray.tmin; });
   for (int axis = 0; axis < 3; ++axis) sink.add<float>(rays, [=](const Ray& ray) { return ray.direction[axis]; });
   sink.add<float>(rays, [](const Ray& ray) { return ray.tmax; });
   sink.add<std::uint8_t>(rays, [](const Ray& ray) { return ray.kind; });
+  if (!with_trees) return;
+  sink.add<std::uint8_t>(trees, [](const RayTree& tree) { return tree.tree; });
+  sink.add<std::uint32_t>(trees, [](const RayTree& tree) { return tree.own_tests; });
+  sink.add<std::uint32_t>(trees, [](const RayTree& tree) { return tree.global_tests; });
 }
 
 void encode_hits(ColumnSink sink, const std::vector<intersect::Hit>& hits) {
@@ -101,25 +107,26 @@ std::vector<cull::Design> stored_designs(const Manifest& manifest) {
 
 }  // namespace
 
-EncodedBlock BlockEncoder::encode(const std::vector<intersect::Ray>& rays, const std::vector<intersect::Hit>& hits,
-                                  const std::vector<reference::StepList>& steps, const reference::PacketList& packets) {
-  if (rays.size() > kMaxRaysPerBlock || hits.size() != rays.size() || steps.size() != designs_.size())
+EncodedBlock BlockEncoder::encode(const reference::RayBlock& block, const std::vector<reference::StepList>& steps) {
+  const std::size_t rays = block.rays.size();
+  if (rays > kMaxRaysPerBlock || block.expected.size() != rays || steps.size() != designs_.size() ||
+      (with_trees_ && block.trees.size() != rays))
     throw Error("trace", "a block does not have what the trace promises", "");
-  if (in_packets_ && (!packets.walked() || packets.first_ray.back() != rays.size()))
+  if (in_packets_ && (!block.packets.walked() || block.packets.first_ray.back() != rays))
     throw Error("trace", "a block's packets are not walked, or not of its rays", "");
-  EncodedBlock block;
-  block.rays = rays.size();
-  encode_rays({encoder_, block.columns, kRaysSection}, rays);
-  encode_hits({encoder_, block.columns, kHitsSection}, hits);
+  EncodedBlock encoded;
+  encoded.rays = rays;
+  encode_rays({encoder_, encoded.columns, kRaysSection}, block.rays, block.trees, with_trees_);
+  encode_hits({encoder_, encoded.columns, kHitsSection}, block.expected);
   for (std::size_t i = 0; i < designs_.size(); ++i) {
-    if (steps[i].rays() != rays.size()) throw Error("trace", "a block has not as many event sequences as rays", "");
-    encode_steps({encoder_, block.columns, static_cast<std::uint16_t>(kFirstStepsSection + i)}, steps[i],
+    if (steps[i].rays() != rays) throw Error("trace", "a block has not as many event sequences as rays", "");
+    encode_steps({encoder_, encoded.columns, static_cast<std::uint16_t>(kFirstStepsSection + i)}, steps[i],
                  {has_keys(designs_[i]), with_met_, in_packets_});
   }
   if (in_packets_)
-    encode_packets({encoder_, block.columns, static_cast<std::uint16_t>(kFirstStepsSection + designs_.size())},
-                   packets);
-  return block;
+    encode_packets({encoder_, encoded.columns, static_cast<std::uint16_t>(kFirstStepsSection + designs_.size())},
+                   block.packets);
+  return encoded;
 }
 
 TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel::Image& image,
@@ -127,14 +134,14 @@ TraceWriter::TraceWriter(const std::string& path, Manifest manifest, const accel
     : manifest_(std::move(manifest)),
       stored_designs_(stored_designs(manifest_)),
       with_met_(image.layout.primitive_boxes),
-      encoder_(stored_designs_, with_met_, manifest_.packets.any()),
+      encoder_(stored_designs_, with_met_, manifest_.packets.any(), manifest_.trees.any()),
       file_(path) {
   manifest_.tool = std::string("ctusim ") + tool_version();
   manifest_.ray_count = 0;
   manifest_.image.size_bytes = image.bytes.size();
   manifest_.image.shape = image;
   manifest_.image.shape.bytes = {};
-  manifest_.sections = {image_section(), rays_section(), hits_section()};
+  manifest_.sections = {image_section(), rays_section(manifest_.trees.any()), hits_section()};
   for (const cull::Design design : stored_designs_)
     manifest_.sections.push_back(
         steps_section(std::string(cull::to_string(design)), {has_keys(design), with_met_, manifest_.packets.any()}));
@@ -183,7 +190,7 @@ void TraceWriter::add(const EncodedBlock& block) {
 }
 
 void TraceWriter::add(const reference::RayBlock& block, const std::vector<reference::StepList>& steps) {
-  add(encoder_.encode(block.rays, block.expected, steps, block.packets));
+  add(encoder_.encode(block, steps));
 }
 
 std::string TraceWriter::finish(std::vector<DesignCounts> designs, std::vector<Difference> differences) {

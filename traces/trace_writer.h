@@ -23,15 +23,14 @@ struct EncodedBlock {
 class BlockEncoder {
  public:
   /// `designs`: whose steps are stored, in the order in which `encode` gets them; `with_met`: with what ray boxes meet.
-  BlockEncoder(std::vector<cull::Design> designs, bool with_met, bool in_packets)
-      : designs_(std::move(designs)), with_met_(with_met), in_packets_(in_packets) {}
-  /// `packets`: empty where rays travel alone.
-  EncodedBlock encode(const std::vector<intersect::Ray>& rays, const std::vector<intersect::Hit>& hits,
-                      const std::vector<reference::StepList>& steps, const reference::PacketList& packets = {});
+  BlockEncoder(std::vector<cull::Design> designs, bool with_met, bool in_packets, bool with_trees)
+      : designs_(std::move(designs)), with_met_(with_met), in_packets_(in_packets), with_trees_(with_trees) {}
+  /// `block` with all but its steps, which are those of `steps`.
+  EncodedBlock encode(const reference::RayBlock& block, const std::vector<reference::StepList>& steps);
 
  private:
   std::vector<cull::Design> designs_;
-  bool with_met_, in_packets_;
+  bool with_met_, in_packets_, with_trees_;
   ColumnEncoder encoder_;
 };
 
@@ -43,7 +42,9 @@ class TraceWriter {
   TraceWriter(const std::string& path, Manifest manifest, const accel::Image& image,
               const cull::CompressionLut* compression = nullptr);
 
-  BlockEncoder make_encoder() const { return BlockEncoder(stored_designs_, with_met_, manifest_.packets.any()); }
+  BlockEncoder make_encoder() const {
+    return BlockEncoder(stored_designs_, with_met_, manifest_.packets.any(), manifest_.trees.any());
+  }
   void add(const EncodedBlock& block);
   void add(const reference::RayBlock& block, const std::vector<reference::StepList>& steps);
 

@@ -46,9 +46,10 @@ class Follower {
     const reference::StepList& list = block.steps;
     const std::uint64_t first = list.first_step[index], last = list.first_step[index + 1];
     depth_ = 0;
-    if (intersect::is_valid(block.rays[index])) begin(block.packets, index);
+    const accel::ChildRef root = bvh_.root(reference::tree_of(block.trees, index));
+    if (intersect::is_valid(block.rays[index])) begin(block.packets, index, root);
     if (first == last) {
-      if (depth_ == 1 && stack_[0] == 0 && block.packets.packets() == 0) refuse("a valid ray visits nothing");
+      if (depth_ == 1 && stack_[0] == root && block.packets.packets() == 0) refuse("a valid ray visits nothing");
       if (list.tail_dropped[index] != depth_) refuse("entries are dropped that are not on the stack, or left there");
       return;
     }
@@ -70,13 +71,14 @@ class Follower {
   void follow_packet(const reference::RayBlock& block, std::uint64_t packet, int most_entries) {
     const reference::PacketList& list = block.packets;
     ray_ = block.first_ray + list.first_ray[packet];
+    const accel::ChildRef root = bvh_.root(reference::tree_of(block.trees, list.first_ray[packet]));
     bool anybody = false;
     for (std::uint64_t ray = list.first_ray[packet]; ray < list.first_ray[packet + 1]; ++ray)
       anybody |= intersect::is_valid(block.rays[ray]);
     reference::EntrySearch search;
     std::uint64_t visit = list.first_visit[packet];
     if (anybody)
-      for (search.begin(most_entries, 0); !search.done(); ++visit) {
+      for (search.begin(most_entries, 0, root); !search.done(); ++visit) {
         if (visit == list.first_visit[packet + 1] || list.visits[visit].node != search.node())
           refuse("its packet does not visit what it must");
         const accel::Node4& node = bvh_.nodes[search.node()];
@@ -120,9 +122,9 @@ class Follower {
   }
 
   /// The stack of a ray that begins: the root, or the entries of its packet.
-  void begin(const reference::PacketList& list, std::uint64_t index) {
+  void begin(const reference::PacketList& list, std::uint64_t index, accel::ChildRef root) {
     if (list.packets() == 0) {
-      stack_[depth_++] = 0;
+      stack_[depth_++] = root;
       return;
     }
     const std::uint64_t packet = list.packet_of(index);

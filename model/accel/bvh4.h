@@ -37,13 +37,18 @@ struct LeafTriangle {
 static_assert(sizeof(LeafTriangle) == 40);
 
 /// Node 0 is the root, present even when the scene has one triangle; children come after their parent, but
-/// in a tree that partition.h has ordered: that one can be walked, not refit or given masks.
+/// in a tree that partition.h has ordered: that one can be walked, not refit or given masks. Trees for some rays only
+/// may lie behind it (forest.h).
 struct Bvh4 {
   std::vector<Node4> nodes;
+  std::vector<ChildRef> further_roots;  ///< of trees number 1 and on; tree 0 is the one from node 0
   std::vector<LeafTriangle> triangles;
   std::uint32_t spheres = 0;  ///< how many of them are spheres
   Vec3 lower, upper;          ///< bounds of the scene
-  int depth = 0;              ///< nodes on the longest path from the root
+  int depth = 0;              ///< nodes on the longest path from a root
+
+  std::uint32_t trees() const { return 1 + static_cast<std::uint32_t>(further_roots.size()); }
+  ChildRef root(std::uint32_t tree) const { return tree == 0 ? 0 : further_roots[tree - 1]; }
 };
 
 }  // namespace ctu::accel

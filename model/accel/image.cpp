@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "model/accel/forest.h"
 #include "model/accel/image_bytes.h"
 #include "model/base/error.h"
 
@@ -100,7 +101,7 @@ const std::uint8_t* primitive_at(const Image& image, std::uint32_t index) {
   return image.bytes.data() + image.triangle_address(index);
 }
 
-/// Collects what validate() needs to know of the whole tree while it walks from the root.
+/// Collects what validate() needs to know of all trees while it walks from their roots.
 class Validator {
  public:
   explicit Validator(const Image& image)
@@ -108,15 +109,14 @@ class Validator {
 
   void run() {
     check_frame();
-    node_depth_[0] = 1;
-    for (std::vector<std::uint32_t> open = {0}; !open.empty();) {
+    for (std::vector<std::uint32_t> open = roots(); !open.empty();) {
       const std::uint32_t n = open.back();
       open.pop_back();
       check_node(n, open);
     }
     const auto stray = std::find(node_depth_.begin(), node_depth_.end(), 0);
     if (stray != node_depth_.end())
-      fail(fmt::format("image, node {}", stray - node_depth_.begin()), "no node on the way from the root refers to it");
+      fail(fmt::format("image, node {}", stray - node_depth_.begin()), "no node on the way from a root refers to it");
     if (*std::max_element(node_depth_.begin(), node_depth_.end()) != image_.depth)
       fail("image, depth", "not the length of the longest path");
     const auto missing = std::find(in_leaf_.begin(), in_leaf_.end(), false);
@@ -145,6 +145,19 @@ class Validator {
   }
 
  private:
+  std::vector<std::uint32_t> roots() {
+    if (image_.trees() > kMostTrees) fail("image, further_roots", fmt::format("{} trees", image_.trees()));
+    std::vector<std::uint32_t> roots;
+    for (std::uint32_t tree = 0; tree < image_.trees(); ++tree) {
+      const ChildRef root = image_.root(tree);
+      if (root >= image_.masked_nodes()) fail("image, further_roots", fmt::format("{} is no node with masks", root));
+      if (node_depth_[root] != 0) fail("image, further_roots", fmt::format("{} is the root of two trees", root));
+      node_depth_[root] = 1;
+      roots.push_back(root);
+    }
+    return roots;
+  }
+
   void check_frame() const {
     if (!is_box(image_.lower, image_.upper)) fail("image, bounds", "not a box");
   }
@@ -267,6 +280,7 @@ Image make_image(const Bvh4& bvh, const std::uint64_t* masks, int words_per_mask
       frame(layout, static_cast<std::uint32_t>(bvh.nodes.size()), static_cast<std::uint32_t>(bvh.triangles.size()));
   image.sphere_count = bvh.spheres;
   image.depth = bvh.depth;
+  image.further_roots = bvh.further_roots;
   image.lower = bvh.lower;
   image.upper = bvh.upper;
   image.bytes.resize(image.triangle_address(image.triangle_count));
@@ -326,6 +340,7 @@ Bvh4 decode(const Image& image) {
   bvh.triangles.reserve(image.triangle_count);
   for (std::uint32_t t = 0; t < image.triangle_count; ++t) bvh.triangles.push_back(read_triangle(image, t));
   bvh.spheres = image.sphere_count;
+  bvh.further_roots = image.further_roots;
   bvh.lower = image.lower;
   bvh.upper = image.upper;
   bvh.depth = image.depth;

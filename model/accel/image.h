@@ -24,7 +24,9 @@
 // Bytes that nothing above names are 0.
 //
 // The last `bare_nodes` nodes carry no masks, because every mask in them is full; their stride is that without masks.
-// They lie behind the others without a gap, and the root is never one of them.
+// They lie behind the others without a gap, and a root is never one of them.
+//
+// Nodes and primitives of several trees (forest.h) lie one behind the other; a ray begins at the root of its own.
 #pragma once
 
 #include <algorithm>
@@ -79,8 +81,11 @@ struct Image {
   std::uint32_t sphere_count = 0;                    ///< how many they are
   int depth = 0;      ///< nodes on the longest path; a traversal stack never holds more than 3 * depth + 1 entries
   Vec3 lower, upper;  ///< bounds of the scene
+  std::vector<ChildRef> further_roots;  ///< of trees number 1 and on, as Bvh4 has them
   std::vector<std::uint8_t> bytes;
 
+  std::uint32_t trees() const { return 1 + static_cast<std::uint32_t>(further_roots.size()); }
+  ChildRef root(std::uint32_t tree) const { return tree == 0 ? 0 : further_roots[tree - 1]; }
   /// Nodes that carry masks: [0, masked_nodes()).
   std::uint32_t masked_nodes() const { return node_count - layout.bare_nodes; }
   std::uint64_t node_address(std::uint32_t index) const {
@@ -109,9 +114,9 @@ void read_mask(const Image& image, std::uint32_t node, int lane, std::uint64_t* 
 Bvh4 decode(const Image& image);
 
 /// Throws Error unless every traversal of the image ends within its bytes: sizes and strides as the layout says, empty
-/// lanes last, every node but the root the child of exactly one node (an earlier one, where no nodes are bare), every
-/// triangle in exactly one leaf, `depth` true, boxes ordered and without NaN, vertices finite, spheres finite and as
-/// many as sphere_count says, primitive_boxes those that the builder gives.
+/// lanes last, every node but the roots the child of exactly one node (an earlier one, where no nodes are bare), every
+/// root a node of its own with masks, every triangle in exactly one leaf, `depth` true, boxes ordered and without NaN,
+/// vertices finite, spheres finite and as many as sphere_count says, primitive_boxes those that the builder gives.
 void validate(const Image& image);
 
 }  // namespace ctu::accel

@@ -13,7 +13,7 @@ struct Partition {
   std::uint32_t bare_nodes = 0;          ///< the last ones
 };
 
-/// Puts the nodes for which `carries_masks` is true, and the root, before the others, each part in its old order, and
+/// Puts the nodes for which `carries_masks` is true, and the roots, before the others, each part in its old order, and
 /// renames children. A child may then come before its parent. Leaves and triangles stay as they are.
 Partition partition_nodes(Bvh4& bvh, const std::vector<bool>& carries_masks);
 

@@ -176,7 +176,7 @@ class Walk {
   std::vector<int> takers_;       ///< runs of indices into open_, one run a level
 };
 
-/// The tree's top: boxes that are cut further, and below them the subtrees that are tasks.
+/// The top of each tree: boxes that are cut further, and below them the subtrees that are tasks.
 struct Cut {
   struct Box {
     Slot slot;
@@ -214,7 +214,7 @@ Cut cut_tree(const Job& job) {
       (large ? cut.top : cut.tasks).push_back({{node, lane}, above});
     }
   };
-  if (!job.bvh.nodes.empty()) place(0, -1);
+  for (std::uint32_t tree = 0; tree < job.bvh.trees() && !job.bvh.nodes.empty(); ++tree) place(job.bvh.root(tree), -1);
   for (std::size_t i = 0; i < cut.top.size(); ++i) place(child_of(job.bvh, cut.top[i].slot), static_cast<int>(i));
   return cut;
 }

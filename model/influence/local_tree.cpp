@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "model/accel/build_by.h"
+#include "model/accel/leaf_record.h"
 #include "model/accel/mesh_check.h"
+#include "model/accel/primitive_box.h"
 #include "model/base/error.h"
 #include "model/base/parallel.h"
 #include "model/influence/projected_area.h"
@@ -37,6 +39,15 @@ accel::Bvh4 build_with(const scene::Mesh& mesh, const InfluenceArea& area, const
                     [&](float scale) { return LeastFacingAxes(area, scale, heuristic.thresholds); });
 }
 
+bool may_touch(const scene::Mesh& mesh, const PreparedArea& area, std::size_t primitive) {
+  if (primitive < mesh.triangles.size()) {
+    const auto& [a, b, c] = mesh.triangles[primitive];
+    return area.may_touch(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+  }
+  const accel::PrimitiveBox box = accel::box_of_primitive(accel::leaf_record(mesh, std::uint32_t(primitive)));
+  return area.may_touch(box.lower, box.upper);
+}
+
 }  // namespace
 
 std::string to_string(const TreeHeuristic& heuristic) {
@@ -49,16 +60,10 @@ std::string to_string(const TreeHeuristic& heuristic) {
   return fmt::format("{} + {}", axes, cost);
 }
 
-std::vector<std::uint32_t> triangles_in(const scene::Mesh& mesh, const PreparedArea& area, int threads) {
-  if (!mesh.spheres.empty())
-    throw Error("local tree", fmt::format("the scene has {} spheres", mesh.spheres.size()),
-                "name a scene of triangles: whether an area touches a sphere is not decided");
-  std::vector<std::uint8_t> touches(mesh.triangles.size());
+std::vector<std::uint32_t> primitives_in(const scene::Mesh& mesh, const PreparedArea& area, int threads) {
+  std::vector<std::uint8_t> touches(mesh.primitives());
   parallel_chunks(touches.size(), kChunkTriangles, threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const auto& [a, b, c] = mesh.triangles[i];
-      touches[i] = area.may_touch(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) ? 1 : 0;
-    }
+    for (std::size_t i = first; i < last; ++i) touches[i] = may_touch(mesh, area, i) ? 1 : 0;
   });
   std::vector<std::uint32_t> ids;
   for (std::uint32_t i = 0; i < touches.size(); ++i)
@@ -80,14 +85,19 @@ accel::Bvh4 build_for(const scene::Mesh& mesh, const InfluenceArea& area, const 
   });
 }
 
-accel::Bvh4 build_for(const scene::Mesh& mesh, const std::vector<std::uint32_t>& triangles, const InfluenceArea& area,
+accel::Bvh4 build_for(const scene::Mesh& mesh, const std::vector<std::uint32_t>& primitives, const InfluenceArea& area,
                       const TreeHeuristic& heuristic, const accel::BuildOptions& options) {
   scene::Mesh part;
   part.vertices = mesh.vertices;
-  part.triangles.reserve(triangles.size());
-  for (const std::uint32_t id : triangles) part.triangles.push_back(mesh.triangles[id]);
+  const std::size_t triangles = mesh.triangles.size();
+  for (const std::uint32_t id : primitives)
+    if (id < triangles)
+      part.triangles.push_back(mesh.triangles[id]);
+    else
+      part.spheres.push_back(mesh.spheres[id - triangles]);
   accel::Bvh4 bvh = build_for(part, area, heuristic, options);
-  for (accel::LeafTriangle& triangle : bvh.triangles) triangle.primitive = triangles[triangle.primitive];
+  for (accel::LeafTriangle& primitive : bvh.triangles)
+    primitive.primitive = primitives[primitive.id()] | (primitive.primitive & accel::LeafTriangle::kSphereBit);
   return bvh;
 }
 

@@ -1,4 +1,4 @@
-// The tree of an influence area: over every triangle with a point in the area, built for the rays that run there.
+// The tree of an influence area: over every primitive with a point in the area, built for the rays that run there.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +29,17 @@ inline constexpr TreeHeuristic kLocalHeuristic{TreeCost::Mixed, TreeAxes::All};
 /// "SPFH + SAH" and so on, as the paper names them.
 std::string to_string(const TreeHeuristic& heuristic);
 
-/// Ids of the triangles that may have a point in the area, ascending: none that has one is left out. Throws Error for a
-/// mesh with spheres.
-std::vector<std::uint32_t> triangles_in(const scene::Mesh& mesh, const PreparedArea& area, int threads);
+/// Ids of the primitives that may have a point in the area, ascending: none that has one is left out. A sphere may have
+/// one when its box has.
+std::vector<std::uint32_t> primitives_in(const scene::Mesh& mesh, const PreparedArea& area, int threads);
 
 /// The tree over the triangles of `mesh`, by the heuristic for the rays of `area`.
 accel::Bvh4 build_for(const scene::Mesh& mesh, const InfluenceArea& area, const TreeHeuristic& heuristic,
                       const accel::BuildOptions& options);
 
-/// The same over some of the triangles, at least one: its leaves carry the ids that the whole mesh gives them.
-accel::Bvh4 build_for(const scene::Mesh& mesh, const std::vector<std::uint32_t>& triangles, const InfluenceArea& area,
+/// The same over some of the primitives, ascending ids and at least one: its leaves carry the ids that the whole mesh
+/// gives them.
+accel::Bvh4 build_for(const scene::Mesh& mesh, const std::vector<std::uint32_t>& primitives, const InfluenceArea& area,
                       const TreeHeuristic& heuristic, const accel::BuildOptions& options);
 
 }  // namespace ctu::influence

@@ -34,9 +34,9 @@ TreeSet::TreeSet(const scene::Mesh& mesh, accel::Bvh4 global, const std::vector<
     throw Error("affinity", fmt::format("a tolerance of {} degrees", options.tolerance_degrees), "give 0 to 90");
   for (const InfluenceArea& area : areas) {
     PreparedArea prepared(area);
-    const std::vector<std::uint32_t> triangles = triangles_in(mesh, prepared, options.build.threads);
-    if (triangles.empty()) continue;
-    local_.push_back(build_for(mesh, triangles, area, options.local, options.build));
+    const std::vector<std::uint32_t> primitives = primitives_in(mesh, prepared, options.build.threads);
+    if (primitives.empty()) continue;
+    local_.push_back(build_for(mesh, primitives, area, options.local, options.build));
     areas_.push_back(std::move(prepared));
   }
   octree_ = AreaOctree(areas_, global_.lower, global_.upper, options.octree_levels);

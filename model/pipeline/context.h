@@ -21,6 +21,7 @@ struct Context {
   std::uint32_t index = 0;   ///< of the ray in its block
   std::uint32_t packet = 0;  ///< of the ray's packet in its block, where rays travel in packets
   std::uint32_t visits = 0;  ///< nodes and leaves visited so far
+  accel::ChildRef root = 0;  ///< of the ray's tree
   Cycle entered = 0;         ///< cycle it took the context
   bool any_hit = false;
   bool in_flight = false;

@@ -8,7 +8,8 @@
 //   out  starts        rays that go on alone, with their packet; one a cycle, packet after packet
 //   A ray joins its packet in the cycle in which it is taken: bounds of origin, reciprocal, tmin and tmax are widened.
 //   The first ray of a packet takes free registers, up to packet_cull.packets packets at once. When the last one has
-//   joined, the packet's search (model/reference/entry_search.h) asks for the root; one node of each packet is under
+//   joined, the packet's search (model/reference/entry_search.h) asks for the root of
+//   its tree; one node of each packet is under
 //   way at a time. A node keeps the test's entrance for packet_cull.interval cycles; packet_cull.latency cycles later
 //   (4 subtract, 4 multiply, 3 compare, 1 search) the search has its answer, and in the cycle behind that the next node
 //   is asked for or the first ray begins. Packets wait for either in the order in which they came to it.
@@ -218,7 +219,8 @@ class PacketCull {
   }
 
   void close() {
-    packets_[filling_].search.begin(image_.packet_entries(), source_.packet_begins(filling_));
+    packets_[filling_].search.begin(image_.packet_entries(), source_.packet_begins(filling_),
+                                    contexts_[packets_[filling_].leader()].root);
     asking_.push(static_cast<std::uint8_t>(filling_));
     ++counters_.packets;
     filling_ = kNone;

@@ -72,7 +72,7 @@ struct Stages {
   using Holder = typename Wiring::template Holder<Stage>;
 
   Stages(UnitState<Source>& s, reference::RayFeed& feed)
-      : ray_queue(s.config, s.contexts, s.source, feed, !Source::kComputes),
+      : ray_queue(s.config, s.image, s.contexts, s.source, feed, !Source::kComputes),
         scheduler(s.config, s.contexts, s.source),
         node_fetch(s.config, s.image, s.contexts),
         box_test(s.config, s.image, s.contexts, s.source),

@@ -2,10 +2,11 @@
 // the root). A ray that the unit does not accept goes straight to the result as a miss.
 //
 //   in   freed         contexts that result_queue has emptied
-//   out  to_scheduler  the root, for each ray
+//   out  to_scheduler  the root of its tree, for each ray
 //   out  to_result     rays that visit nothing
 //   out  to_packets    instead of to_scheduler, where rays travel in packets: each ray that is valid or the last one of
 //                      its packet
+//   A ray names its tree by number; the roots of the image's trees lie in a table, read as the ray is taken.
 //   latency ray_setup.latency, one ray each ray_setup.interval cycles (the directed divider is shared by the axes)
 //   stalls: no_context, output_full
 //
@@ -19,6 +20,7 @@
 #include "model/pipeline/link.h"
 #include "model/pipeline/pipe.h"
 #include "model/pipeline/unit_config.h"
+#include "model/pipeline/unit_image.h"
 #include "model/reference/ray_block.h"
 
 namespace ctu::pipeline {
@@ -32,8 +34,16 @@ class RayQueue {
   typename Wiring::template Out<SlotToken> to_result;
   typename Wiring::template Out<JoinToken> to_packets;
 
-  RayQueue(const UnitConfig& config, Contexts& contexts, Source& source, reference::RayFeed& feed, bool needs_steps)
-      : contexts_(contexts),
+  /// By the recording, where there are several trees.
+  struct Counters {
+    std::uint64_t local_rays = 0;                   ///< that walk another tree than that over the whole scene
+    std::uint64_t own_tests = 0, global_tests = 0;  ///< unculled, of all rays in their trees, and in that one
+  };
+
+  RayQueue(const UnitConfig& config, const UnitImage& image, Contexts& contexts, Source& source,
+           reference::RayFeed& feed, bool needs_steps)
+      : image_(image),
+        contexts_(contexts),
         source_(source),
         feed_(feed),
         packets_(feed.packets()),
@@ -73,6 +83,7 @@ class RayQueue {
   /// Every ray of the feed has been given a context.
   bool exhausted() const { return block_ == nullptr; }
   std::uint64_t rays_taken() const { return rays_taken_; }
+  const Counters& counters() const { return counters_; }
 
   Account account{kName, {Activity::OutputFull, Activity::NoContext}};
 
@@ -88,7 +99,7 @@ class RayQueue {
     if (packets_.any()) return leave_to_packet(now, prepared);
     if (prepared.valid ? !to_scheduler.can_push(now) : !to_result.can_push(now)) return false;
     if (prepared.valid) {
-      to_scheduler.push(now, {0, prepared.slot});
+      to_scheduler.push(now, {contexts_[prepared.slot].root, prepared.slot});
     } else {
       contexts_.move(prepared.slot, now, Place::Result);
       to_result.push(now, {prepared.slot});
@@ -119,6 +130,8 @@ class RayQueue {
     context.ray = block_->first_ray + index_;
     context.any_hit = block_->rays[index_].kind == intersect::RayKind::AnyHit;
     context.visits = 0;
+    context.root = image_.root(reference::tree_of(block_->trees, index_));
+    count_trees();
     context.depth = context.spilled = 0;
     contexts_.occupy(slot, now);
     bool closes = false;
@@ -130,6 +143,14 @@ class RayQueue {
     setup_.enter(now, {slot, source_.begin(slot), closes}, interval_);
     ++rays_taken_;
     if (++index_ == block_->rays.size()) next_block();
+  }
+
+  void count_trees() {
+    if (block_->trees.empty()) return;
+    const reference::RayTree& tree = block_->trees[index_];
+    counters_.local_rays += tree.tree != 0;
+    counters_.own_tests += tree.own_tests;
+    counters_.global_tests += tree.global_tests;
   }
 
   void next_block() {
@@ -144,7 +165,17 @@ class RayQueue {
     if (needs_steps_ && block_->steps.rays() < block_->rays.size())
       throw Error("ray block at ray " + std::to_string(block_->first_ray), "recorded steps are missing",
                   "record them, or let the unit compute (exec)");
+    check_trees();
     if (packets_.any()) check_packets();
+  }
+
+  /// Every ray of the block names a tree of the image.
+  void check_trees() const {
+    for (const reference::RayTree& tree : block_->trees)
+      if (tree.tree >= image_.trees())
+        throw Error("ray block at ray " + std::to_string(block_->first_ray),
+                    "a ray walks tree " + std::to_string(tree.tree) + " of " + std::to_string(image_.trees()),
+                    "record the trace again");
   }
 
   /// The block's packets are as the feed says.
@@ -161,6 +192,7 @@ class RayQueue {
     if (needs_steps_ && !list.walked()) refuse("what its packets visit is missing");
   }
 
+  const UnitImage& image_;
   Contexts& contexts_;
   Source& source_;
   reference::RayFeed& feed_;
@@ -173,6 +205,7 @@ class RayQueue {
   std::shared_ptr<const reference::RayBlock> block_;
   std::uint32_t index_ = 0, packet_ = 0;
   std::uint64_t rays_taken_ = 0;
+  Counters counters_;
 };
 
 }  // namespace ctu::pipeline

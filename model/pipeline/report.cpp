@@ -93,6 +93,7 @@ std::vector<std::string> left_out(const UnitConfig& config, const UnitImage& ima
     lines.push_back(most.tables->tables().empty()
                         ? "table_fetch and its memory client: the design has no tables; one stage, three links"
                         : "table_fetch and its memory client: all tables are on chip; one stage, three links");
+  if (image.trees() == 1) lines.push_back("the table of roots in ray_queue: all rays walk one tree");
   if (image.packet_entries() == 0) lines.push_back("packet_cull: rays do not travel in packets; one stage, four links");
   if (!image.decodes_boxes())
     lines.push_back(

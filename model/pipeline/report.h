@@ -32,6 +32,14 @@ class CounterList {
     add("packets.most_under_way", "packets", "most packets under way at once",
         static_cast<std::uint64_t>(packets.most_under_way));
   }
+  /// `trees`: of ray_queue.
+  template <class Counters>
+  void add_trees(const Counters& trees) {
+    add("trees.local_rays", "rays", "rays that walk a tree of their light's influence area", trees.local_rays);
+    add("trees.own_tests", "tests", "of boxes and primitives, of all rays in their trees, unculled, as recorded",
+        trees.own_tests);
+    add("trees.global_tests", "tests", "the same in the tree over the whole scene", trees.global_tests);
+  }
   void add_banked(const BankedMemory::Counters& memory);
   /// The mask test's tables, together and one by one. `cached`: they lie in memory, behind table_cache.
   void add_tables(const TableBanks& tables, bool cached, const CacheConfig& cache);
@@ -85,6 +93,7 @@ UnitResult make_result(UnitState<Source>& state, Stages<Source, Wiring>& stages,
                state.contexts.occupied_cycles());
   counters.add("contexts.most_occupied", "contexts", "most contexts occupied at once",
                static_cast<std::uint64_t>(state.contexts.most_occupied()));
+  if (state.image.trees() > 1) counters.add_trees(Wiring::stage(stages.ray_queue).counters());
   if (stages.packet_cull) counters.add_packets(Wiring::stage(*stages.packet_cull).counters());
   counters.add("scheduler.most_ready", "rays", "most rays ready at once", Wiring::stage(stages.scheduler).most_ready());
   const auto add_fetch = [&](const auto& fetch) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/intersect/ray.h"
@@ -48,6 +50,13 @@ struct UnitResult {
   std::vector<std::string> left_out;  ///< stages and tables this run does not need, and what that saved (contract 5)
   /// Over (cycle, ray, step) of every visit and return: equal in every execution mode.
   std::uint64_t event_log_hash = 0;
+
+  /// None where the unit has no such counter.
+  std::optional<std::uint64_t> counter(std::string_view name) const {
+    for (const Counter& one : counters)
+      if (one.name == name) return one.value;
+    return std::nullopt;
+  }
 };
 
 }  // namespace ctu::pipeline

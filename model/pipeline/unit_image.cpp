@@ -25,6 +25,7 @@ UnitImage::UnitImage(const accel::Image& image, const cull::MaskTester& tester, 
       has_primitive_boxes_(image.layout.primitive_boxes),
       primitives_(image.triangle_count),
       full_lanes_(image.node_count) {
+  for (std::uint32_t tree = 0; tree < image.trees(); ++tree) roots_.push_back(image.root(tree));
   if (arithmetic) {
     boxes_.resize(image.node_count);
     triangles_.resize(image.triangle_count);

@@ -55,6 +55,9 @@ class UnitImage {
   std::uint32_t spheres() const { return spheres_; }
   /// Whether every primitive has its box beside it.
   bool primitive_boxes() const { return has_primitive_boxes_; }
+  std::uint32_t trees() const { return static_cast<std::uint32_t>(roots_.size()); }
+  /// Where the rays of a tree begin.
+  accel::ChildRef root(std::uint32_t tree) const { return roots_[tree]; }
   std::uint32_t node_count() const { return static_cast<std::uint32_t>(children_.size()); }
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(primitives_.size()); }
   const std::array<accel::ChildRef, 4>& children(std::uint32_t node) const { return children_[node]; }
@@ -96,6 +99,7 @@ class UnitImage {
   int depth_ = 0, packet_entries_ = 0;
   const cull::CompressionLut* lut_;
   std::size_t mask_words_;
+  std::vector<accel::ChildRef> roots_;
   std::vector<std::array<accel::ChildRef, 4>> children_;
   std::uint32_t spheres_;
   bool has_primitive_boxes_;

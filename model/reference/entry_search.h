@@ -1,9 +1,9 @@
 // The search for the places where the rays of a packet go on alone: the top of the tree, walked once for all of them.
 //
-// A first-in first-out queue of nodes begins with the root. The packet is asked about the children of the node at its
-// head. Those that some ray may meet take the node's place, if none of them is a leaf, if all of them but one at most
-// are met by every ray, and if queue and entries then hold no more than `most_entries`; else the node becomes an entry.
-// A node whose children all rays miss is dropped for all.
+// A first-in first-out queue of nodes begins with the root of the packet's tree. The packet is asked about the children
+// of the node at its head. Those that some ray may meet take the node's place, if none of them is a leaf, if all of
+// them but one at most are met by every ray, and if queue and entries then hold no more than `most_entries`; else the
+// node becomes an entry. A node whose children all rays miss is dropped for all.
 //
 // Why at most one in doubt: a ray that comes to the node alone asks for it, and then for those children that it meets.
 // From the children's entries it asks for all of them. So it asks for no more when it misses one of them at most.
@@ -34,12 +34,12 @@ inline unsigned lanes_of(const Children& children) {
 
 class EntrySearch {
  public:
-  /// `begins`: not after the begin of any ray.
-  void begin(int most_entries, float begins) {
+  /// `begins`: not after the begin of any ray; `root`: of the tree that all rays of the packet walk.
+  void begin(int most_entries, float begins, accel::ChildRef root) {
     most_ = most_entries;
     entries_.clear();
     head_ = tail_ = 0;
-    push({0, begins});
+    push({root, begins});
   }
   bool done() const { return head_ == tail_; }
   /// The node that the packet is asked about next.

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "model/accel/child_ref.h"
+#include "model/reference/ray_tree.h"
 
 namespace ctu::reference {
 
@@ -47,11 +49,15 @@ struct PacketList {
   bool operator==(const PacketList&) const = default;
 };
 
-/// `rays` consecutive rays in packets of `size`, the last one smaller where it does not come out even; not walked.
-inline PacketList cut_packets(std::uint32_t rays, int size) {
+/// `rays` consecutive rays in packets of `size`; not walked. One is smaller before a ray of another tree, and where it
+/// does not come out even at the end.
+inline PacketList cut_packets(std::uint32_t rays, int size, std::span<const RayTree> trees = {}) {
   PacketList list;
-  for (std::uint32_t end = 0; end < rays;)
-    list.first_ray.push_back(end = std::min(rays, end + static_cast<std::uint32_t>(size)));
+  for (std::uint32_t end = 0; end < rays; list.first_ray.push_back(end)) {
+    const std::uint32_t begin = end++;
+    while (end < rays && end - begin < static_cast<std::uint32_t>(size) && tree_of(trees, end) == tree_of(trees, begin))
+      ++end;
+  }
   return list;
 }
 

@@ -20,18 +20,9 @@ void check(const PacketPlan& plan) {
                 fmt::format("give 1 to {}", kMostEntries));
 }
 
-void expect_from_entries(std::span<const intersect::Ray> rays, std::span<const intersect::Hit> from_entries,
-                         std::span<intersect::Hit> expected) {
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const bool both_found =
-        from_entries[i].primitive != intersect::kNoPrimitive && expected[i].primitive != intersect::kNoPrimitive;
-    if (rays[i].kind == intersect::RayKind::AnyHit && both_found) expected[i] = from_entries[i];
-  }
-}
-
 PacketWalk::PacketWalk(const accel::Bvh4& bvh, const PacketPlan& plan, std::span<const intersect::Ray> rays,
-                       const PacketList& cut)
-    : rays_(rays), entries_(cut.packets()) {
+                       const PacketList& cut, std::span<const RayTree> trees)
+    : rays_(rays), trees_(trees), entries_(cut.packets()) {
   list_.first_ray = cut.first_ray;
   check(plan);
   if (stack_bound(bvh) + plan.most_entries > kMaxStackEntries)
@@ -50,7 +41,7 @@ void PacketWalk::walk(std::size_t packet, const accel::Bvh4& bvh, const PacketPl
   }
   if (!slabs.empty()) {
     EntrySearch search;
-    for (search.begin(plan.most_entries, slabs.begins()); !search.done();) {
+    for (search.begin(plan.most_entries, slabs.begins(), bvh.root(tree(packet))); !search.done();) {
       const accel::Node4& node = bvh.nodes[search.node()];
       const cull::packet::PacketTimes times = slabs.test(node.boxes);
       list_.visits.push_back({search.node(), static_cast<std::uint8_t>(times.hit | times.sure << 4)});
@@ -83,7 +74,7 @@ std::vector<intersect::Hit> PacketWalk::trace(const Traversal& traversal, StepLi
     for (std::uint32_t ray = list_.first_ray[packet]; ray < list_.first_ray[packet + 1]; ++ray) {
       hits.push_back(traversal.trace_from(entries_[packet], rays_[ray], steps));
       alone.clear();
-      if (!above.empty()) traversal.trace(rays_[ray], &alone);
+      if (!above.empty()) traversal.trace_in(tree(packet), rays_[ray], &alone);
       std::size_t spared = 0;
       for (const Step& step : alone.steps)
         spared += !step.is_leaf() && std::binary_search(above.begin(), above.end(), step.ref);

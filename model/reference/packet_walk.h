@@ -15,10 +15,10 @@ namespace ctu::reference {
 /// The packets of consecutive rays, walked.
 class PacketWalk {
  public:
-  /// `cut` says which rays travel together, and nothing else counts of it. Rays that are not valid are in a packet and
-  /// have no part in it.
+  /// `cut` says which rays travel together, and nothing else counts of it; they walk the tree of the first one. Rays
+  /// that are not valid are in a packet and have no part in it.
   PacketWalk(const accel::Bvh4& bvh, const PacketPlan& plan, std::span<const intersect::Ray> rays,
-             const PacketList& cut);
+             const PacketList& cut, std::span<const RayTree> trees = {});
 
   const PacketList& list() const { return list_; }
 
@@ -28,18 +28,15 @@ class PacketWalk {
 
  private:
   void walk(std::size_t packet, const accel::Bvh4& bvh, const PacketPlan& plan);
+  std::uint32_t tree(std::size_t packet) const { return tree_of(trees_, list_.first_ray[packet]); }
   /// The nodes that a packet has replaced by their children, or dropped.
   std::vector<std::uint32_t> replaced(std::size_t packet) const;
 
   std::span<const intersect::Ray> rays_;
+  std::span<const RayTree> trees_;
   PacketList list_;
   std::vector<EntryList> entries_;  ///< by packet
 };
-
-/// Any hit answers an any-hit ray, and from its packet's entries it may come to another one first than alone. Where
-/// both find one, what it finds from the entries is what it is expected to find.
-void expect_from_entries(std::span<const intersect::Ray> rays, std::span<const intersect::Hit> from_entries,
-                         std::span<intersect::Hit> expected);
 
 /// Throws Error naming what is out of range.
 void check(const PacketPlan& plan);

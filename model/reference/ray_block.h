@@ -8,6 +8,7 @@
 
 #include "model/intersect/ray.h"
 #include "model/reference/packet_list.h"
+#include "model/reference/ray_tree.h"
 #include "model/reference/step.h"
 
 namespace ctu::reference {
@@ -15,6 +16,7 @@ namespace ctu::reference {
 struct RayBlock {
   std::uint64_t first_ray = 0;  ///< number of rays[0] in the whole trace
   std::vector<intersect::Ray> rays;
+  std::vector<RayTree> trees;            ///< by ray; empty where there is only one tree
   std::vector<intersect::Hit> expected;  ///< of the traversal without culling
   StepList steps;                        ///< empty when only rays are wanted (exec)
   PacketList packets;                    ///< empty when the rays travel alone

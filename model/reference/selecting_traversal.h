@@ -1,11 +1,10 @@
 // The untimed traversal of a scene with local trees: each ray walks the tree that was built for rays like it, and the
 // global tree where that one cannot know the answer.
 //
-// Why nothing is lost. An area is convex. When a ray's origin and the point at t both lie in it, all between does, so
-// every triangle that the ray meets up to t has a point in the area and is in its local tree. So the local answer is
-// final when the exact point at the hit's t certainly lies in the area; when the ray found nothing and the point where
-// it ends, or leaves the bounds of the scene, does; and for an any-hit ray whenever it found anything. Else the global
-// tree is walked for what is nearer than the hit there is.
+// Why nothing is lost: up to a point of the ray in the area, every triangle that it meets is in the area's local tree
+// (tree_choice.h). So the local answer is final when the exact point at the hit's t certainly lies in the area; when
+// the ray found nothing and the point where it ends, or leaves the bounds of the scene, does; and for an any-hit ray
+// whenever it found anything. Else the global tree is walked for what is nearer than the hit there is.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +12,7 @@
 
 #include "model/influence/tree_set.h"
 #include "model/reference/traversal.h"
+#include "model/reference/tree_choice.h"
 
 namespace ctu::reference {
 
@@ -45,7 +45,7 @@ class SelectingTraversal {
 
   const influence::TreeSet& trees_;
   cull::MaskTester no_culling_;
-  intersect::Box4 bounds_;  ///< of the scene, in the first lane
+  TreeChoice choice_;
   Traversal global_;
   std::vector<Traversal> local_;
 };

@@ -37,6 +37,12 @@ void close_ray(StepList& steps, std::uint8_t tail_dropped) {
 /// What ray boxes do in the leaves of a walk.
 enum class RayBoxes { None, CutAtHits, OncePerLeaf };
 
+/// Where a ray begins: at a root, or at the entries of its packet.
+struct Start {
+  accel::ChildRef root = 0;
+  const EntryList* entries = nullptr;
+};
+
 /// One ray on its way through the tree. `kRecord` decides once whether the event sequence is written, `kSpheres`
 /// whether a leaf may hold spheres, `kRayBoxes` how ray boxes cull its primitives.
 template <bool kRecord, bool kSpheres, RayBoxes kRayBoxes>
@@ -56,12 +62,11 @@ class Walk {
     best_ = known != nullptr ? *known : intersect::Hit{ray.tmax, 0, 0, intersect::kNoPrimitive};
   }
 
-  /// From the root, or from a packet's entries.
-  intersect::Hit run(const EntryList* entries) {
+  intersect::Hit run(const Start& start) {
     if (!ray_.valid) return best_;
-    if (entries == nullptr) push(0, ray_.ray.tmin, ray_.ray.tmax);
-    for (int i = entries == nullptr ? 0 : entries->count(); i-- > 0;)
-      push((*entries)[i].ref, (*entries)[i].t0, ray_.ray.tmax);
+    if (start.entries == nullptr) push(start.root, ray_.ray.tmin, ray_.ray.tmax);
+    for (int i = start.entries == nullptr ? 0 : start.entries->count(); i-- > 0;)
+      push((*start.entries)[i].ref, (*start.entries)[i].t0, ray_.ray.tmax);
     Entry at;
     while (pop(at)) {
       if (accel::is_leaf(at.ref)) {
@@ -177,13 +182,13 @@ struct Outcome {
   cull::RayBoxCounts box_counts;
 };
 
-/// Rays are walked with the boxes of `leaf_boxes`, or none; from `entries` on, or the root.
+/// Rays are walked with the boxes of `leaf_boxes`, or none.
 template <bool kRecord, RayBoxes kRayBoxes>
 Outcome walk(const NodeTest& test_node, const accel::PrimitiveBox* leaf_boxes, const intersect::Ray& ray,
-             StepList* steps, const intersect::Hit* known, const EntryList* entries) {
+             StepList* steps, const intersect::Hit* known, const Start& start) {
   const auto run = [&](auto spheres) {
     Walk<kRecord, spheres(), kRayBoxes> walk(test_node, leaf_boxes, ray, steps, known);
-    const intersect::Hit hit = walk.run(entries);
+    const intersect::Hit hit = walk.run(start);
     return Outcome{hit, walk.dropped(), walk.box_counts()};
   };
   return test_node.bvh().spheres != 0 ? run(std::true_type()) : run(std::false_type());
@@ -191,12 +196,11 @@ Outcome walk(const NodeTest& test_node, const accel::PrimitiveBox* leaf_boxes, c
 
 template <bool kRecord>
 Outcome walk(const NodeTest& test_node, const std::vector<accel::PrimitiveBox>* leaf_boxes, cull::RayBoxRule rule,
-             const intersect::Ray& ray, StepList* steps, const intersect::Hit* known,
-             const EntryList* entries = nullptr) {
-  if (leaf_boxes == nullptr) return walk<kRecord, RayBoxes::None>(test_node, nullptr, ray, steps, known, entries);
+             const intersect::Ray& ray, StepList* steps, const intersect::Hit* known, const Start& start) {
+  if (leaf_boxes == nullptr) return walk<kRecord, RayBoxes::None>(test_node, nullptr, ray, steps, known, start);
   if (rule == cull::RayBoxRule::CutAtHits)
-    return walk<kRecord, RayBoxes::CutAtHits>(test_node, leaf_boxes->data(), ray, steps, known, entries);
-  return walk<kRecord, RayBoxes::OncePerLeaf>(test_node, leaf_boxes->data(), ray, steps, known, entries);
+    return walk<kRecord, RayBoxes::CutAtHits>(test_node, leaf_boxes->data(), ray, steps, known, start);
+  return walk<kRecord, RayBoxes::OncePerLeaf>(test_node, leaf_boxes->data(), ray, steps, known, start);
 }
 
 }  // namespace
@@ -222,15 +226,23 @@ Traversal::Traversal(const accel::Bvh4& bvh, const cull::ObjectMasks* masks, con
 
 intersect::Hit Traversal::trace(const intersect::Ray& ray, StepList* steps, const intersect::Hit* known,
                                 cull::RayBoxCounts* box_counts) const {
-  const Outcome outcome = steps == nullptr ? walk<false>(test_node_, leaf_boxes_, rule_, ray, nullptr, known)
-                                           : walk<true>(test_node_, leaf_boxes_, rule_, ray, steps, known);
+  const Outcome outcome = steps == nullptr ? walk<false>(test_node_, leaf_boxes_, rule_, ray, nullptr, known, {})
+                                           : walk<true>(test_node_, leaf_boxes_, rule_, ray, steps, known, {});
   if (box_counts != nullptr) *box_counts += outcome.box_counts;
   if (steps != nullptr) close_ray(*steps, outcome.dropped);
   return outcome.hit;
 }
 
+intersect::Hit Traversal::trace_in(std::uint32_t tree, const intersect::Ray& ray, StepList* steps) const {
+  const Start start{test_node_.bvh().root(tree), nullptr};
+  const Outcome outcome = steps == nullptr ? walk<false>(test_node_, leaf_boxes_, rule_, ray, nullptr, nullptr, start)
+                                           : walk<true>(test_node_, leaf_boxes_, rule_, ray, steps, nullptr, start);
+  if (steps != nullptr) close_ray(*steps, outcome.dropped);
+  return outcome.hit;
+}
+
 intersect::Hit Traversal::trace_from(const EntryList& entries, const intersect::Ray& ray, StepList& steps) const {
-  const Outcome outcome = walk<true>(test_node_, leaf_boxes_, rule_, ray, &steps, nullptr, &entries);
+  const Outcome outcome = walk<true>(test_node_, leaf_boxes_, rule_, ray, &steps, nullptr, {0, &entries});
   close_ray(steps, outcome.dropped);
   return outcome.hit;
 }

@@ -26,10 +26,15 @@ class Traversal {
             const std::vector<accel::PrimitiveBox>* leaf_boxes = nullptr,
             cull::RayBoxRule rule = cull::RayBoxRule::CutAtHits);
 
+  const accel::Bvh4& bvh() const { return test_node_.bvh(); }
+
   /// The ray's hit. When `steps` is given, its event sequence is appended there as one more ray. `known`: a hit, or a
   /// miss, that is kept unless a better one is found. What ray boxes did, if they cull, is added to `box_counts`.
   intersect::Hit trace(const intersect::Ray& ray, StepList* steps = nullptr, const intersect::Hit* known = nullptr,
                        cull::RayBoxCounts* box_counts = nullptr) const;
+
+  /// The ray's hit in one of several trees (accel/forest.h), and its event sequence when `steps` is given.
+  intersect::Hit trace_in(std::uint32_t tree, const intersect::Ray& ray, StepList* steps = nullptr) const;
 
   /// The hit of a ray that goes on alone where its packet has left it, and its event sequence.
   intersect::Hit trace_from(const EntryList& entries, const intersect::Ray& ray, StepList& steps) const;

@@ -197,6 +197,9 @@ std::unique_ptr<RtlUnit> load_rtl_unit(const std::string& library) {
 
 std::unique_ptr<RtlUnit> make_rtl_unit(const pipeline::UnitConfig& config, const pipeline::Work& work,
                                        const std::string& folder) {
+  if (work.image.trees() > 1)
+    throw Error("--engine", "the unit in SystemVerilog begins every ray at one root, and this image has several trees",
+                "give --engine cycle, or record without --trees");
   if (work.rays.packets().any())
     throw Error("--engine", "the unit in SystemVerilog has no packet_cull, and these rays travel in packets",
                 "give --engine cycle, or record without --packets");

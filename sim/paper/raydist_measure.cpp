@@ -182,7 +182,7 @@ LightResult measure_light(const scene::Scene& scene, const accel::Bvh4& global, 
                                         [](const auto& a, const auto& b) { return a.rays < b.rays; });
   const influence::PreparedArea area(largest->area);
   result.found_kind = largest->area.kind;
-  const std::vector<std::uint32_t> triangles = influence::triangles_in(scene.mesh, area, 1);
+  const std::vector<std::uint32_t> triangles = influence::primitives_in(scene.mesh, area, 1);
   result.local_triangles = triangles.size();
   if (triangles.empty()) return result;
   const Rays affine = affine_rays(largest->area, options.affine_rays, options.rays.seed);

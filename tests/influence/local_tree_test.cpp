@@ -92,7 +92,7 @@ TEST(LocalTree, holds_every_triangle_with_a_point_in_the_area_under_the_id_it_ha
   const scene::Scene scene = scene::load("gen:tilted-quads?quads=600");
   for (int i = 0; i < 8; ++i) {
     const InfluenceArea area = random.area(1, 0.5f);
-    const auto inside = influence::triangles_in(scene.mesh, influence::PreparedArea(area), 2);
+    const auto inside = influence::primitives_in(scene.mesh, influence::PreparedArea(area), 2);
     std::size_t exact = 0;
     for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = scene.mesh.triangles[t];

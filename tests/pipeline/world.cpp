@@ -7,7 +7,7 @@
 #include "model/cull/compress.h"
 #include "model/cull/object_masks.h"
 #include "model/pipeline/backpressure.h"
-#include "model/reference/packet_walk.h"
+#include "model/reference/block_walk.h"
 #include "model/reference/traversal.h"
 #include "model/scene/load.h"
 #include "tests/oracle/seed.h"
@@ -151,12 +151,25 @@ void World::travel_in(const reference::PacketPlan& packets) {
   const reference::Traversal traversal(tree_, &masks_, tester_);
   for (auto& block : blocks_) {
     auto travelling = std::make_shared<reference::RayBlock>(*block);
-    travelling->steps.clear();
-    travelling->packets = reference::cut_packets(static_cast<std::uint32_t>(block->rays.size()), packets.size);
-    const reference::PacketWalk walk(tree_, packets, travelling->rays, travelling->packets);
-    reference::expect_from_entries(travelling->rays, walk.trace(traversal, travelling->steps), travelling->expected);
-    travelling->packets = walk.list();
+    const auto rays = static_cast<std::uint32_t>(block->rays.size());
+    travelling->packets = reference::cut_packets(rays, packets.size, block->trees);
+    const std::vector<intersect::Hit> found = reference::walk_block(traversal, packets, *travelling);
+    reference::expect_any_hits_found(travelling->rays, found, travelling->expected);
     block = std::move(travelling);
+  }
+}
+
+void World::walk_trees(const std::vector<std::uint8_t>& trees) {
+  const std::vector<accel::PrimitiveBox> boxes = reference::leaf_boxes(tree_);
+  const reference::Traversal traversal(tree_, &masks_, tester_, image_.layout.primitive_boxes ? &boxes : nullptr,
+                                       cull::RayBoxRule::OncePerLeaf);
+  for (auto& block : blocks_) {
+    auto walking = std::make_shared<reference::RayBlock>(*block);
+    for (std::size_t i = 0; i < block->rays.size(); ++i)
+      walking->trees.push_back({trees[(block->first_ray + i) % trees.size()], 1, 2});
+    const std::vector<intersect::Hit> found = reference::walk_block(traversal, {}, *walking);
+    reference::expect_any_hits_found(walking->rays, found, walking->expected);
+    block = std::move(walking);
   }
 }
 

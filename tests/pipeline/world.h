@@ -57,6 +57,9 @@ class World {
   std::uint64_t rays() const { return rays_; }
   /// The same rays without their recorded steps.
   void forget_steps();
+  /// The same rays, each in its one of the trees; ray i in trees[i % size]. What they must return stays what they find
+  /// in the first one, but for which hit an any-hit ray comes to.
+  void walk_trees(const std::vector<std::uint8_t>& trees);
   /// The same rays in packets. What the unit must return stays what they find alone.
   void travel_in(const reference::PacketPlan& packets);
 
