@@ -2,6 +2,7 @@
 // alone, and what local trees for them would save.
 #include <fmt/format.h>
 
+#include "model/accel/build.h"
 #include "model/base/error.h"
 #include "model/influence/find_areas.h"
 #include "sim/commands.h"
@@ -11,24 +12,32 @@
 namespace ctu::sim {
 namespace {
 
-/// The scene of a trace, from its tree: each triangle with vertices of its own. Throws Error unless every triangle of
-/// the scene is there once.
+/// The scene of a trace, from the tree over all of it, which is the first: each triangle with vertices of its own.
+/// Throws Error unless every primitive of the scene is there once.
 scene::Mesh mesh_of(const LoadedTrace& trace, const std::string& path) {
-  const std::vector<accel::LeafTriangle>& triangles = trace.bvh().triangles;
+  const traces::SceneInfo& scene = trace.reader().manifest().scene;
+  const std::size_t primitives = scene.triangles + scene.spheres;
   const auto refuse = [&](const std::string& what) { throw Error(path, what, "record the trace again"); };
-  if (triangles.size() != trace.reader().manifest().scene.triangles)
-    refuse(fmt::format("{} triangles of a scene of {}", triangles.size(), trace.reader().manifest().scene.triangles));
+  if (trace.bvh().triangles.size() < primitives)
+    refuse(fmt::format("{} primitives of a scene of {}", trace.bvh().triangles.size(), primitives));
   scene::Mesh mesh;
-  mesh.triangles.resize(triangles.size());
-  mesh.vertices.reserve(3 * triangles.size());
-  std::vector<bool> met(triangles.size());
-  for (const accel::LeafTriangle& triangle : triangles) {
-    if (triangle.primitive >= triangles.size() || met[triangle.primitive])
-      refuse(fmt::format("primitive {} is not there once", triangle.primitive));
-    met[triangle.primitive] = true;
+  mesh.triangles.resize(scene.triangles);
+  mesh.spheres.resize(scene.spheres);
+  mesh.vertices.reserve(3 * scene.triangles);
+  std::vector<bool> met(primitives);
+  for (std::size_t i = 0; i < primitives; ++i) {
+    const accel::LeafTriangle& primitive = trace.bvh().triangles[i];
+    const std::uint32_t id = primitive.id();
+    if (id >= primitives || met[id] || primitive.is_sphere() != (id >= scene.triangles))
+      refuse(fmt::format("primitive {} is not there once", id));
+    met[id] = true;
+    if (primitive.is_sphere()) {
+      mesh.spheres[id - scene.triangles] = primitive.sphere();
+      continue;
+    }
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.triangles[triangle.primitive] = {first, first + 1, first + 2};
-    for (const Vec3& v : {triangle.v0, triangle.v1, triangle.v2}) mesh.vertices.push_back(v);
+    mesh.triangles[id] = {first, first + 1, first + 2};
+    for (const Vec3& v : {primitive.v0, primitive.v1, primitive.v2}) mesh.vertices.push_back(v);
   }
   return mesh;
 }
@@ -57,11 +66,11 @@ void print_areas(const influence::FoundAreas& found, const influence::TreeSet& t
 int trace_areas_command(const TraceArgs& args) {
   const LoadedTrace trace(args.trace);
   const std::vector<intersect::Ray> rays = rays_of(trace);
-  const accel::Bvh4& bvh = trace.bvh();
+  const scene::Mesh mesh = mesh_of(trace, args.trace);
+  const accel::Bvh4 bvh = accel::build(mesh, trace.reader().manifest().build);
   const influence::FoundAreas found = influence::find_areas(rays, bvh.lower, bvh.upper);
   influence::TreeSetOptions options;
   options.build = trace.reader().manifest().build;
-  const scene::Mesh mesh = mesh_of(trace, args.trace);
   const influence::TreeSet trees(mesh, bvh, found.list(), options);
   print_areas(found, trees);
 

@@ -100,7 +100,7 @@ int packets_command(const PacketsArgs& args) {
              reference::to_string(options.forming));
   print_header(args.markdown);
   for (const ListedScene& listed : listed_scenes(args.scene)) {
-    const std::optional<scene::Scene> scene = load_listed(args.scene, listed, Primitives::Triangles);
+    const std::optional<scene::Scene> scene = load_listed(args.scene, listed);
     if (!scene) continue;
     std::optional<traces::RecordedTree> tree;
     for (const std::string& kind : ray_kinds(args.scene.rays)) {

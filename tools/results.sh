@@ -258,29 +258,34 @@ leaves() {
   put leaves-interval
 }
 
-# One row: a scene with masks, ray boxes and packets at once, the hits those without any of them.
-together_row() {  # LABEL SCENE
-  keep log "$program" record "$2" -o "$scratch/together.ctut" --size 96x54 --rays diffuse --leaf 8 --triangle-cost 0.3 \
-    --designs mask-lut --primitive-boxes --packets 16 --packet-forming origin
-  keep run "$program" run "$scratch/together.ctut"
-  awk -v label="$1" '
-    /^rays / { rays = $2 }
-    /^wrong hits / { wrong = $3 }
-    /^culled share / { boxes = $3 * $6 / 100 }
-    /^saved by ray boxes / { tests = $5 }
-    /^packets.node_tests_saved / { nodes = $2 }
-    /^cycles per ray / { cycles = $4 }
-    END { printf "| %s | %d | %d | %.2f | %.2f | %.2f | %.2f |\n", label, rays, wrong, boxes / rays, tests / rays, nodes / rays, cycles }' \
-    "$scratch/run"
+# Rows of a scene with masks, ray boxes, packets and, for shadow rays, local trees at once, the hits those without any.
+together_rows() {  # LABEL SCENE
+  local rays
+  for rays in "diffuse" "shadow --trees 4"; do
+    # shellcheck disable=SC2086
+    keep log "$program" record "$2" -o "$scratch/together.ctut" --size 96x54 --leaf 8 --triangle-cost 0.3 \
+      --designs mask-lut --primitive-boxes --packets 16 --packet-forming origin --rays $rays
+    keep run "$program" run "$scratch/together.ctut"
+    awk -v label="$1, ${rays%% *}" '
+      /^rays / { rays = $2 }
+      /^wrong hits / { wrong = $3 }
+      /^culled share / { boxes = $3 * $6 / 100 }
+      /^saved by ray boxes / { tests = $5 }
+      /^saved by packets / { nodes = $4 }
+      /^saved by local trees / { trees = $5 }
+      /^cycles per ray / { cycles = $4 }
+      END { printf "| %s | %d | %d | %.2f | %.2f | %.2f | %.2f | %.2f |\n", label, rays, wrong, boxes / rays, tests / rays, nodes / rays, trees / rays, cycles }' \
+      "$scratch/run"
+  done
 }
 
 together() {
   local name path scene
   {
-    echo "| scene | rays | wrong hits | boxes culled by masks, a ray | primitive tests saved by ray boxes | box tests of four saved by packets | cycles/ray |"
-    echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"
-    for scene in hair-ball curly-hair straight-hair tilted-quads foliage tetra balls; do together_row "gen:$scene" "gen:$scene"; done
-    while read -r name path; do together_row "$name" "$(dirname "$index")/$path"; done <"$index"
+    echo "| scene and rays | rays | wrong hits | boxes culled by masks, a ray | primitive tests saved by ray boxes | box tests of four saved by packets | tests saved by local trees | cycles/ray |"
+    echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    for scene in hair-ball curly-hair straight-hair tilted-quads foliage tetra balls; do together_rows "gen:$scene" "gen:$scene"; done
+    while read -r name path; do together_rows "$name" "$(dirname "$index")/$path"; done <"$index"
   } >"$scratch/together"
   put together
 }

@@ -38,7 +38,7 @@ paper::RayDistributionScene measure_scene(const ListedScene& listed, const scene
   const influence::TreeHeuristic baseline = paper::compared_heuristics()[paper::kBaseline].heuristic;
   const accel::Bvh4 global = influence::build_for(scene.mesh, {}, baseline, options.build);
   const std::vector<paper::TestLight> lights = paper::test_lights(scene);
-  paper::RayDistributionScene result{listed.name, scene.mesh.triangles.size(), {}};
+  paper::RayDistributionScene result{listed.name, scene.mesh.primitives(), {}};
   result.lights.resize(lights.size());
   parallel_chunks(lights.size(), 1, threads, [&](std::size_t i, std::size_t) {
     result.lights[i] = paper::measure_light(scene, global, lights[i], options);
@@ -71,7 +71,7 @@ int paper_raydist_command(const PaperArgs& args) {
   std::uint64_t lost = 0;
   for (const ListedScene& listed : listed_scenes(scene_args)) {
     const Stopwatch watch;
-    const std::optional<scene::Scene> scene = load_listed(scene_args, listed, Primitives::Triangles);
+    const std::optional<scene::Scene> scene = load_listed(scene_args, listed);
     if (!scene) continue;
     results.push_back(measure_scene(listed, *scene, options, record.threads));
     for (const paper::LightResult& light : results.back().lights) lost += light.selection.lost;

@@ -111,6 +111,41 @@ TEST(LocalTree, holds_every_triangle_with_a_point_in_the_area_under_the_id_it_ha
   }
 }
 
+TEST(LocalTree, holds_every_sphere_with_a_point_in_the_area) {
+  SCOPED_TRACE(oracle::seed_note());
+  test::AreaRandom random(oracle::test_seed() + 21);
+  const scene::Scene scene = scene::load("gen:balls?depth=2");
+  const auto triangles = static_cast<std::uint32_t>(scene.mesh.triangles.size());
+  std::size_t held = 0;
+  for (int i = 0; i < 8; ++i) {
+    const InfluenceArea area = random.area(1, 0.5f);
+    const influence::PreparedArea prepared(area);
+    const auto inside = influence::primitives_in(scene.mesh, prepared, 2);
+    for (std::uint32_t s = 0; s < scene.mesh.spheres.size(); ++s) {
+      const scene::Sphere& ball = scene.mesh.spheres[s];
+      bool point_inside = prepared.certainly_contains(ball.centre);
+      for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.0f, 1.0f}) {
+          Vec3 pole = ball.centre;
+          pole[axis] += side * ball.radius;
+          point_inside |= prepared.certainly_contains(pole);
+        }
+      if (!point_inside) continue;
+      ++held;
+      ASSERT_TRUE(std::binary_search(inside.begin(), inside.end(), triangles + s)) << "area " << i << " sphere " << s;
+    }
+    if (inside.empty()) continue;
+    const Bvh4 bvh = influence::build_for(scene.mesh, inside, area, {}, {});
+    for (const accel::LeafTriangle& primitive : bvh.triangles) {
+      ASSERT_EQ(primitive.is_sphere(), primitive.id() >= triangles);
+      if (primitive.is_sphere()) {
+        EXPECT_EQ(primitive.sphere(), scene.mesh.spheres[primitive.id() - triangles]);
+      }
+    }
+  }
+  EXPECT_GT(held, 0u);
+}
+
 TEST(Facing, is_the_share_of_the_component_across_the_plane) {
   const auto f = influence::facing(1, -2, 1);
   EXPECT_DOUBLE_EQ(f[0], 0.25);

@@ -339,6 +339,30 @@ TEST_F(CommandTest, a_resolution_whose_table_is_too_large_is_recorded_all_the_sa
   expect_refused("run fine.ctut --engine reference --set mask_test.design=mask-lut", "ray-mask table");
 }
 
+TEST_F(CommandTest, shadow_rays_find_the_same_in_local_trees_with_every_culling_at_once_and_the_run_says_who_saved_what) {
+  const std::string scene = "record 'gen:foliage?twigs=100' --size 200x150 --rays shadow --leaf 8 --triangle-cost 0.3 ";
+  ASSERT_EQ(ctusim(scene + "-o one.ctut").exit_code, 0);
+  const Outcome recorded =
+      ctusim(scene + "-o all.ctut --trees 4 --primitive-boxes --packets 8 --packet-forming origin");
+  ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+  EXPECT_NE(recorded.out.find("local trees; "), std::string::npos) << recorded.out;
+  EXPECT_NE(ctusim("trace info all.ctut").out.find("in the image, "), std::string::npos);
+  EXPECT_NE(ctusim("trace head all.ctut --rays 8").out.find("walks tree "), std::string::npos);
+  EXPECT_EQ(ctusim("trace areas all.ctut").exit_code, 0);
+  std::map<std::string, json> results;
+  for (const std::string run : {"one", "all", "all --source exec", "all --engine reference"}) {
+    const Outcome outcome = ctusim("run " + run.substr(0, 3) + ".ctut --json r.json" + run.substr(3));
+    ASSERT_EQ(outcome.exit_code, 0) << run << outcome.err;
+    results[run] = json::parse(read_text(file("r.json")));
+    EXPECT_EQ(results[run]["wrong_hits"], 0) << run;
+    if (run != "all") continue;
+    for (const char* saved : {"culled share", "saved by ray boxes", "saved by packets", "saved by local trees"})
+      EXPECT_NE(outcome.out.find(saved), std::string::npos) << saved << outcome.out;
+  }
+  EXPECT_EQ(results["all"]["event_log_hash"], results["all --source exec"]["event_log_hash"]);
+  EXPECT_EQ(results["all"]["rays"], results["one"]["rays"]);
+}
+
 TEST_F(CommandTest, rays_in_packets_find_the_same_hits_with_every_engine_and_source_and_say_what_they_saved) {
   const std::string scene = "record 'gen:tilted-quads?quads=300' --size 40x40 --rays primary -o ";
   ASSERT_EQ(ctusim(scene + "alone.ctut").exit_code, 0);
@@ -452,6 +476,9 @@ TEST_F(CommandTest, mistakes_of_the_user_end_in_one_message_and_exit_code_2) {
   expect_refused("record gen:hair-ball -o x.ctut --box-bits 10", "--box-bits");
   expect_refused("precision gen:hair-ball --box-bits 32,", "--box-bits");
   expect_refused("record gen:hair-ball -o x.ctut --triangle-align 0", "--triangle-align");
+  expect_refused("record gen:hair-ball -o x.ctut --trees 256", "local trees");
+  expect_refused("record gen:hair-ball -o x.ctut --trees -1", "local trees");
+  expect_refused("record gen:hair-ball -o x.ctut --trees 2 --culling auto", "--trees");
   expect_refused("record gen:hair-ball -o x.ctut --packets 3", "packets");
   expect_refused("record gen:hair-ball -o x.ctut --packets 65", "packets");
   expect_refused("record gen:hair-ball -o x.ctut --packets -8", "packets");
