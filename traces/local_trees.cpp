@@ -32,18 +32,21 @@ std::vector<intersect::Ray> shadow_rays(const RayGenerator& generator, const acc
   return shadow;
 }
 
-influence::TreeSet trees_for(const scene::Scene& scene, const RayGenerator& generator, const accel::Bvh4& global,
-                             const RayTrees& trees, const accel::BuildOptions& build) {
+influence::TreeSet trees_for(const scene::Scene& scene, const std::vector<intersect::Ray>& shadow,
+                             const accel::Bvh4& global, const RayTrees& trees, const accel::BuildOptions& build) {
   check(trees);
   influence::FindOptions find;
   find.most_areas = trees.most_areas;
-  const auto found = influence::find_areas(shadow_rays(generator, global), scene.lower, scene.upper, find);
+  const auto found = influence::find_areas(shadow, scene.lower, scene.upper, find);
   influence::TreeSetOptions options;
   options.build = build;
   return influence::TreeSet(scene.mesh, global, found.list(), options);
 }
 
-std::uint32_t tests_of(const reference::StepList& walk) {
+/// Tests of the ray from the root of a tree on.
+std::uint32_t tests_of(const reference::Traversal& traversal, std::uint32_t tree, const intersect::Ray& ray) {
+  reference::StepList walk;
+  traversal.trace_in(tree, ray, &walk);
   return static_cast<std::uint32_t>(reference::count_steps(walk, 0, walk.rays()).intersections());
 }
 
@@ -58,25 +61,42 @@ void check(const RayTrees& trees) {
 
 LocalTrees::LocalTrees(const scene::Scene& scene, const RayGenerator& generator, const accel::Bvh4& global,
                        const RayTrees& options, const accel::BuildOptions& build)
-    : trees_(trees_for(scene, generator, global, options, build)), choice_(trees_) {}
+    : LocalTrees(scene, shadow_rays(generator, global), global, options, build) {}
+
+LocalTrees::LocalTrees(const scene::Scene& scene, const std::vector<intersect::Ray>& shadow, const accel::Bvh4& global,
+                       const RayTrees& options, const accel::BuildOptions& build)
+    : trees_(trees_for(scene, shadow, global, options, build)), choice_(trees_), kept_(worth_keeping(shadow)) {}
+
+std::vector<std::uint32_t> LocalTrees::worth_keeping(const std::vector<intersect::Ray>& shadow) const {
+  const cull::MaskTester no_culling(cull::Design::None, {});
+  const reference::Traversal global(trees_.global(), nullptr, no_culling);
+  std::vector<reference::Traversal> local;
+  for (std::size_t area = 0; area < trees_.areas().size(); ++area)
+    local.emplace_back(trees_.local(area), nullptr, no_culling);
+  std::vector<std::int64_t> saved(local.size());
+  for (const intersect::Ray& ray : shadow)
+    if (const auto area = choice_.area_of(ray))
+      saved[*area] += std::int64_t{tests_of(global, 0, ray)} - std::int64_t{tests_of(local[*area], 0, ray)};
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t area = 0; area < saved.size(); ++area)
+    if (saved[area] > 0) kept.push_back(area);
+  return kept;
+}
 
 std::vector<reference::RayTree> LocalTrees::choose(const reference::Traversal& traversal,
                                                    const std::vector<intersect::Ray>& rays) const {
   std::vector<reference::RayTree> chosen;
   chosen.reserve(rays.size());
-  reference::StepList walk;
   for (const intersect::Ray& ray : rays) {
+    const std::uint32_t global_tests = tests_of(traversal, 0, ray);
     const std::optional<std::uint32_t> area = choice_.area_of(ray);
-    walk.clear();
-    traversal.trace_in(0, ray, &walk);
-    const std::uint32_t global_tests = tests_of(walk);
-    if (!area) {
+    const auto place = area ? std::lower_bound(kept_.begin(), kept_.end(), *area) : kept_.end();
+    if (place == kept_.end() || *place != *area) {
       chosen.push_back({0, global_tests, global_tests});
       continue;
     }
-    walk.clear();
-    traversal.trace_in(*area + 1, ray, &walk);
-    chosen.push_back({static_cast<std::uint8_t>(*area + 1), tests_of(walk), global_tests});
+    const auto tree = static_cast<std::uint8_t>(place - kept_.begin() + 1);
+    chosen.push_back({tree, tests_of(traversal, tree, ray), global_tests});
   }
   return chosen;
 }

@@ -16,14 +16,15 @@ namespace ctu::traces {
 class LocalTrees {
  public:
   /// Of the shadow rays that `generator` makes, evenly spread ones are looked at; `global` is the tree over all of the
-  /// scene. There may be no area, and then no tree: rays that are no shadow rays are in none.
+  /// scene. A tree that does not save these rays tests is left out. There may be no area, and then no tree: rays that
+  /// are no shadow rays are in none.
   LocalTrees(const scene::Scene& scene, const RayGenerator& generator, const accel::Bvh4& global,
              const RayTrees& options, const accel::BuildOptions& build);
   LocalTrees(const LocalTrees&) = delete;
   LocalTrees& operator=(const LocalTrees&) = delete;
 
-  std::uint32_t count() const { return static_cast<std::uint32_t>(trees_.areas().size()); }
-  const accel::Bvh4& tree(std::uint32_t i) const { return trees_.local(i); }
+  std::uint32_t count() const { return static_cast<std::uint32_t>(kept_.size()); }
+  const accel::Bvh4& tree(std::uint32_t i) const { return trees_.local(kept_[i]); }
 
   /// The trees of rays, 0 or 1 + a local one, and their tests there; `traversal` is without culling, of global and
   /// local trees in one.
@@ -31,8 +32,14 @@ class LocalTrees {
                                          const std::vector<intersect::Ray>& rays) const;
 
  private:
+  LocalTrees(const scene::Scene& scene, const std::vector<intersect::Ray>& shadow, const accel::Bvh4& global,
+             const RayTrees& options, const accel::BuildOptions& build);
+  /// Areas whose trees save `shadow` tests.
+  std::vector<std::uint32_t> worth_keeping(const std::vector<intersect::Ray>& shadow) const;
+
   influence::TreeSet trees_;
   reference::TreeChoice choice_;
+  std::vector<std::uint32_t> kept_;  ///< areas, ascending
 };
 
 /// Puts the rays of each window that walk one tree one behind the other, else in the order they are in: their places
