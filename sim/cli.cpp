@@ -178,6 +178,8 @@ void add_run(CLI::App& app, Parsed& parsed) {
                       "write each ray's way through the stages in --window here: .kanata or .kanata.zst for Konata, "
                       ".pftrace for Perfetto");
   command->add_option("--window", parsed.run.window, "cycles A:B of the waveform, or of the timeline [0:4999]");
+  command->add_option("--energy", parsed.run.energy_path,
+                      "table of energies and areas (TOML) instead of the 45 nm one");
   command->add_option("--first", parsed.run.first_ray, "first ray")->capture_default_str();
   command->add_option("--rays", parsed.run.rays, "number of rays; 0: to the end")->capture_default_str();
   command->callback([&parsed, command] {

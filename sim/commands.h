@@ -66,6 +66,7 @@ struct RunArgs {
   std::string engine = "cycle";
   std::string json_path;
   std::string waves_path, timeline_path, window;
+  std::string energy_path;                        ///< table of energies; empty: ours
   bool gives_mode = false, gives_source = false;  ///< on the command line
   std::uint64_t first_ray = 0, rays = 0;          ///< rays 0: to the end
   std::string command;                            ///< as it was typed

@@ -110,6 +110,7 @@ int run_command(const RunArgs& args) {
   plan.options = run_options(args.unit);
   std::optional<pipeline::Timeline> timeline = watch(args, plan.options);
   if (timeline) plan.options.timeline = &*timeline;
+  if (!args.energy_path.empty()) plan.energy = energy::EnergyTable::read(args.energy_path);
   const LoadedTrace trace(args.trace);
   plan.range = trace.range(args.first_ray, args.rays);
   if (!args.json_path.empty()) check_writable(args.json_path);

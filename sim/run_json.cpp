@@ -8,6 +8,7 @@
 #include "model/base/error.h"
 #include "model/base/version.h"
 #include "sim/config_file.h"
+#include "sim/energy/cost_json.h"
 
 namespace ctu::sim {
 namespace {
@@ -125,6 +126,7 @@ std::string json_text(const RunRecord& record) {
     json["first_difference"] = record.twins.first_difference;
   }
   if (!record.runs_rays()) json["approximation"] = approximation_json(record.approximation, record.engine);
+  json.update(energy::cost_json(record.cost));
   json["counters"] = counters_json(record.result);
   json["config"] = config_json(record.config);
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace);

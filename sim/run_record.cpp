@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "sim/energy/cost_print.h"
+
 namespace ctu::sim {
 namespace {
 
@@ -134,6 +136,7 @@ void print_record(const RunRecord& record) {
     if (!record.result.left_out.empty()) fmt::print("\nleft out, because this trace does not need it:\n");
     for (const std::string& item : record.result.left_out) fmt::print("  {}\n", item);
   }
+  energy::print_cost(record.cost);
   print_wrong_hits(record.result);
 }
 

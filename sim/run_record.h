@@ -5,6 +5,7 @@
 
 #include "model/pipeline/result.h"
 #include "model/pipeline/unit_config.h"
+#include "sim/energy/cost_report.h"
 
 namespace ctu::sim {
 
@@ -35,6 +36,7 @@ struct RunRecord {
   pipeline::UnitResult result;
   TwinComparison twins;
   Approximation approximation;
+  energy::CostReport cost;
   double wall_seconds = 0;       ///< of the simulation alone, without loading
   double processor_seconds = 0;  ///< likewise, of one core: what other programs take of a shared machine is not in it
 

@@ -150,6 +150,10 @@ RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
     run_estimate(trace, tester, plan, record);
   else
     run_cycle(trace, tester, plan, record);
+  const reference::PacketPlan packets = trace.reader().manifest().packets.plan;
+  const energy::UnitShape shape =
+      energy::unit_shape(plan.config, trace.unit_image(tester.design()), tester, packets.size, packets.most_entries);
+  record.cost = energy::cost_of_run(shape, record.result, plan.energy);
   return record;
 }
 

@@ -5,6 +5,7 @@
 
 #include "model/unit/run.h"
 #include "sim/commands.h"
+#include "sim/energy/energy_table.h"
 #include "sim/loaded_trace.h"
 #include "sim/run_record.h"
 
@@ -24,6 +25,7 @@ struct RunPlan {
   pipeline::UnitConfig config;
   unit::RunOptions options;
   traces::RayRange range;
+  energy::EnergyTable energy = energy::EnergyTable::standard();
 };
 
 /// Runs and times it; loading and table building are not part of the time.

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "model/accel/largest_leaf.h"
 #include "model/base/error.h"
 #include "sim/cosim/table_image.h"
 
@@ -22,14 +23,6 @@ constexpr std::string_view kOtherSources = "was built from other sources than th
 std::uint64_t distinct_rows(const pipeline::UnitConfig& config, const pipeline::Work& work) {
   const cull::OnChipTables tables(work.tester, config.mask_test.rows, config.mask_test.projection_tables);
   return tables.tables()[1].rows;
-}
-
-int largest_leaf_bytes(const accel::Image& image) {
-  int triangles = 0;
-  for (std::uint32_t n = 0; n < image.node_count; ++n)
-    for (const accel::ChildRef child : accel::read_node(image, n).child)
-      if (accel::is_leaf(child)) triangles = std::max(triangles, accel::leaf_count(child));
-  return triangles * static_cast<int>(image.triangle_stride_bytes);
 }
 
 /// Collects what does not fit.
@@ -149,7 +142,8 @@ std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& confi
   if (build.design == config.mask_test.design && build.design != cull::Design::None)
     check_mask_test(misfits, build, config, work);
   // Last, as it looks at every node: a leaf that is larger would be read with the wrong triangles in it.
-  if (misfits.text().empty()) misfits.at_most("bytes of a leaf", build.max_leaf_bytes, largest_leaf_bytes(work.image));
+  if (misfits.text().empty())
+    misfits.at_most("bytes of a leaf", build.max_leaf_bytes, static_cast<int>(accel::largest_leaf_bytes(work.image)));
   return misfits.text();
 }
 
