@@ -9,6 +9,7 @@
 #include "model/reference/block_walk.h"
 #include "model/reference/traversal.h"
 #include "sim/config_file.h"
+#include "sim/energy/unit_shape.h"
 #include "sim/ladder/estimate.h"
 #include "sim/progress.h"
 #include "sim/rtl_runner.h"

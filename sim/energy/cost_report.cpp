@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/energy/unit_shape.h"
+
 namespace ctu::energy {
 
 double CostReport::dynamic_pj() const {

@@ -9,7 +9,6 @@
 #include "sim/energy/energy_table.h"
 #include "sim/energy/event_energy.h"
 #include "sim/energy/on_chip_bits.h"
-#include "sim/energy/unit_shape.h"
 
 namespace ctu::energy {
 

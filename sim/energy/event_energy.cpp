@@ -6,6 +6,7 @@
 
 #include "sim/energy/on_chip_bits.h"
 #include "sim/energy/stage_operations.h"
+#include "sim/energy/unit_shape.h"
 
 namespace ctu::energy {
 namespace {
@@ -234,7 +235,13 @@ class Meter {
 
 }  // namespace
 
-bool has_event_counts(const pipeline::UnitResult& result) { return !result.counters.empty(); }
+bool has_event_counts(const pipeline::UnitResult& result) {
+  // Results of the gates and of the reference have none of these, those of the estimate all.
+  const auto has = [&](const char* name) {
+    return std::any_of(result.counters.begin(), result.counters.end(), [&](const auto& c) { return c.name == name; });
+  };
+  return has("node_fetch.lookups") && has("memory.node_requests") && has("stack.pops");
+}
 
 std::vector<EnergyItem> event_energy(const UnitShape& shape, const pipeline::UnitResult& result,
                                      const EnergyTable& table) {

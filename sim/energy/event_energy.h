@@ -6,9 +6,10 @@
 
 #include "model/pipeline/result.h"
 #include "sim/energy/energy_table.h"
-#include "sim/energy/unit_shape.h"
 
 namespace ctu::energy {
+
+struct UnitShape;
 
 struct EnergyItem {
   std::string stage, item;
@@ -18,7 +19,7 @@ struct EnergyItem {
   double pj() const { return count * pj_each; }
 };
 
-/// Whether the result has the counters that energy is made of: engines cycle and both.
+/// Whether the result has the counters that energy is made of: engines cycle, both and estimate.
 bool has_event_counts(const pipeline::UnitResult& result);
 
 /// Of every event of the run, stage by stage. Counts are the run's; leaves' best-hit writes and ray boxes count once

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "sim/energy/unit_shape.h"
+
 namespace ctu::energy {
 namespace {
 

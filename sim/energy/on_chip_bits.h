@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "sim/energy/unit_shape.h"
-
 namespace ctu::energy {
+
+struct UnitShape;
 
 /// Bits of an address in memory, as rtl/ctu_unit.sv has them.
 inline constexpr int kAddressBits = 40;

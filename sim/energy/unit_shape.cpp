@@ -11,15 +11,20 @@ int UnitShape::mask_bits() const {
   return entries > 0 ? std::max(1, static_cast<int>(std::bit_width(static_cast<unsigned>(entries - 1)))) : cells();
 }
 
+void set_config(UnitShape& shape, const pipeline::UnitConfig& config, const cull::MaskTester& tester) {
+  shape.config = config;
+  shape.tables.clear();
+  if (shape.culls())
+    shape.tables = cull::OnChipTables(tester, config.mask_test.rows, config.mask_test.projection_tables).tables();
+  shape.spills = 3 * shape.depth + shape.packet_entries > config.stack.entries;
+}
+
 UnitShape unit_shape(const pipeline::UnitConfig& config, const accel::Image& image, const cull::MaskTester& tester,
                      int packet_rays, int packet_entries) {
   UnitShape shape;
-  shape.config = config;
   shape.resolution = tester.options().resolution;
   shape.ray_resolution = tester.options().ray_resolution;
   shape.entries = tester.options().entries;
-  if (shape.culls())
-    shape.tables = cull::OnChipTables(tester, config.mask_test.rows, config.mask_test.projection_tables).tables();
   shape.box_bits = image.layout.box_bits;
   shape.node_bytes = image.node_stride_bytes;
   shape.primitive_bytes = image.triangle_stride_bytes;
@@ -28,7 +33,8 @@ UnitShape unit_shape(const pipeline::UnitConfig& config, const accel::Image& ima
   shape.spheres = image.sphere_count != 0;
   shape.packet_rays = packet_rays;
   shape.packet_entries = packet_rays > 0 ? packet_entries : 0;
-  shape.spills = 3 * image.depth + shape.packet_entries > config.stack.entries;
+  shape.depth = image.depth;
+  set_config(shape, config, tester);
   return shape;
 }
 

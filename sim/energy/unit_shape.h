@@ -21,6 +21,7 @@ struct UnitShape {
   std::uint32_t leaf_bytes = 160;         ///< of the largest leaf
   std::uint32_t primitive_bytes = 40;     ///< from a primitive to the next
   bool primitive_boxes = false, spheres = false;
+  int depth = 0;                            ///< nodes on the longest path of the tree
   bool spills = true;                       ///< some ray may need more than stack.entries
   int packet_rays = 0, packet_entries = 0;  ///< 0: rays travel alone
 
@@ -33,6 +34,9 @@ struct UnitShape {
   int mask_bits() const;
   int stack_entry_bits() const { return primitive_boxes ? 96 : 64; }
 };
+
+/// The same work in another configuration of the same design.
+void set_config(UnitShape& shape, const pipeline::UnitConfig& config, const cull::MaskTester& tester);
 
 /// The shape of the unit that runs this work.
 UnitShape unit_shape(const pipeline::UnitConfig& config, const accel::Image& image, const cull::MaskTester& tester,

@@ -7,6 +7,7 @@
 
 #include "sim/energy/cost_report.h"
 #include "sim/energy/stage_operations.h"
+#include "sim/energy/unit_shape.h"
 
 namespace {
 

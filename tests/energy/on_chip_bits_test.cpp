@@ -5,6 +5,8 @@
 
 #include <map>
 
+#include "sim/energy/unit_shape.h"
+
 namespace {
 
 using namespace ctu::energy;
