@@ -58,9 +58,11 @@ std::optional<bool> is_under_way(const std::string& id) {
 /// Until no task is queued or runs. False when told to stop.
 bool wait_for(const SweepFolder& folder, const fs::path& job, const std::function<bool()>& stop,
               const std::function<void()>& look) {
-  constexpr auto kPause = std::chrono::milliseconds(200);
-  constexpr int kPausesBetweenQuestions = 5;
+  // Soon at first, for short arrays, then seldom, for the controller's sake.
+  constexpr auto kPause = std::chrono::milliseconds(100);
+  constexpr int kMostPauses = 50;
   constexpr int kMostSilence = 60;  // questions without an answer
+  int pauses = 3;
   const std::string id = text_of(job / kJobId);
   for (int silence = 0; silence < kMostSilence;) {
     const auto answer = is_under_way(id);
@@ -70,7 +72,8 @@ bool wait_for(const SweepFolder& folder, const fs::path& job, const std::functio
     }
     silence = answer ? 0 : silence + 1;
     look();
-    for (int i = 0; i < kPausesBetweenQuestions; ++i) {
+    pauses = std::min(pauses + 1, kMostPauses);
+    for (int i = 0; i < pauses; ++i) {
       if (stop()) return false;
       std::this_thread::sleep_for(kPause);
     }

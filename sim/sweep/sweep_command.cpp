@@ -1,8 +1,6 @@
 // The commands of `ctusim sweep` that run points or look at what was run.
 #include "sim/sweep/sweep_command.h"
 
-#include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 #include <sstream>
@@ -12,15 +10,15 @@
 #include <nlohmann/json.hpp>
 
 #include "model/base/error.h"
-#include "model/base/parallel.h"
 #include "model/base/read_file.h"
-#include "sim/progress.h"
 #include "sim/sweep/collect.h"
 #include "sim/sweep/expand.h"
 #include "sim/sweep/result_store.h"
 #include "sim/sweep/row.h"
+#include "sim/sweep/search.h"
 #include "sim/sweep/slurm.h"
 #include "sim/sweep/stop_signal.h"
+#include "sim/sweep/sweep_run.h"
 #include "sim/sweep/trace_recorder.h"
 #include "sim/sweep/worker.h"
 #include "sim/unit_runner.h"
@@ -29,25 +27,6 @@ namespace ctu::sweep {
 namespace {
 
 constexpr std::size_t kListedFailures = 20;
-
-std::uint64_t parse_bytes(const std::string& text) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const std::string unit(end, text.data() + text.size());
-  const std::map<std::string, int> shifts = {{"", 0}, {"K", 10}, {"M", 20}, {"G", 30}};
-  const auto shift = shifts.find(unit);
-  if (error != std::errc() || shift == shifts.end() || number == 0 || number >> (63 - shift->second) != 0)
-    throw Error("--memory", fmt::format("\"{}\" is no amount of memory", text), "write it as in 2G, 500M or 100000K");
-  return number << shift->second;
-}
-
-PoolLimits limits_of(const SweepArgs& args) {
-  PoolLimits limits;
-  limits.jobs = args.jobs == 0 ? available_threads() : args.jobs;
-  limits.seconds = args.time_limit;
-  if (!args.memory.empty()) limits.bytes = parse_bytes(args.memory);
-  return limits;
-}
 
 Space space_of(const SweepArgs& args) {
   if (args.space.empty())
@@ -63,29 +42,6 @@ std::vector<Candidate> candidates_of(const Space& space) {
   const Expander expander(space);
   return draw_candidates(CandidateSpace(space), space.search.points, space.search.seed, 0,
                          [&](const Candidate& candidate) { return expander.accepts(candidate); });
-}
-
-/// A trace's points together, so that few traces are loaded at a time; the same configuration twice is one point.
-std::vector<Point> points_of(const Space& space, const std::vector<Candidate>& candidates,
-                             const std::vector<TraceFacts>& facts) {
-  const Expander expander(space);
-  std::vector<Point> points;
-  std::set<std::string> known;
-  for (const Candidate& candidate : candidates)
-    for (Point& point : expander.points(candidate, facts))
-      if (known.insert(point.id).second) points.push_back(std::move(point));
-  std::map<std::string, std::size_t> place;
-  for (const TraceFacts& trace : facts) place.emplace(trace.name, place.size());
-  std::stable_sort(points.begin(), points.end(),
-                   [&](const Point& a, const Point& b) { return place[a.trace.name] < place[b.trace.name]; });
-  return points;
-}
-
-std::vector<Point> missing_of(const std::vector<Point>& points, const StoredResults& results, bool retry_failed) {
-  std::vector<Point> missing;
-  for (const Point& point : points)
-    if (!results.has(point.id) || (retry_failed && !results.has_result(point.id))) missing.push_back(point);
-  return missing;
 }
 
 struct Tally {
@@ -134,48 +90,6 @@ int print_status(const std::vector<Point>& points, const StoredResults& results)
   return tally.done == points.size() ? 0 : 1;
 }
 
-bool is_on_slurm(const SweepArgs& args) { return args.on == "slurm" || args.engine == "slurm"; }
-
-void require_runner(const SweepArgs& args) {
-  if (args.on != "local" && args.on != "slurm")
-    throw Error("--on", fmt::format("\"{}\" is no place to run", args.on), "give local or slurm");
-  if (!is_on_slurm(args) &&
-      (args.dry_run || args.no_wait || args.chunk != 0 || args.at_once != 0 || !args.sbatch.empty()))
-    throw Error("--chunk, --at-once, --sbatch, --dry-run, --no-wait", "are for Slurm", "add --on slurm");
-  limits_of(args);
-}
-
-SlurmOptions slurm_options(const SweepArgs& args) {
-  SlurmOptions options;
-  options.chunk = args.chunk;
-  options.at_once = args.at_once;
-  options.sbatch = args.sbatch;
-  options.dry_run = args.dry_run;
-  options.wait = !args.no_wait;
-  if (args.time_limit > 0) options.work_limits = {"--time-limit", fmt::format("{}", args.time_limit)};
-  if (!args.memory.empty()) options.work_limits.insert(options.work_limits.end(), {"--memory", args.memory});
-  return options;
-}
-
-/// Runs what is missing of `points`, here or on the cluster.
-void run_missing(const SweepFolder& folder, const std::vector<Point>& points, const SweepArgs& args) {
-  const std::vector<Point> missing = missing_of(points, read_results(folder), args.retry_failed);
-  const auto stop = [] { return StopSignal::received(); };
-  sim::Progress bar("sweep", missing.size(), "points");
-  if (!is_on_slurm(args)) {
-    run_points(folder, missing, "local", limits_of(args), stop, [&](std::size_t done) { bar.update(done); });
-    return;
-  }
-  // A failure that this run has seen is not tried again by it.
-  bool first = true;
-  const auto still_missing = [&] {
-    const bool again = std::exchange(first, false) && args.retry_failed;
-    return missing_of(points, read_results(folder), again);
-  };
-  run_on_slurm(folder, still_missing, slurm_options(args), stop,
-               [&](std::size_t left) { bar.update(missing.size() - std::min(left, missing.size())); });
-}
-
 void print_axis(const Axis& axis) {
   std::string keys, values;
   for (const std::string& key : axis.keys) keys += (keys.empty() ? "" : ", ") + key;
@@ -210,6 +124,10 @@ int sweep_plan_command(const SweepArgs& args) {
     candidates = grid.accepted;
     fmt::print("grid    {} configurations; {} excluded, {} that no unit can have{}\n", grid.candidates, grid.excluded,
                grid.refused, grid.first_refusal.empty() ? "" : fmt::format(" (the first: {})", grid.first_refusal));
+  } else if (space.search.mode == SearchMode::Pareto) {
+    fmt::print("search  {} generations of {} of {} configurations, as many at random beside them, seed {}\n",
+               space.search.generations, space.search.population, CandidateSpace(space).count(), space.search.seed);
+    return 0;
   } else {
     candidates = candidates_of(space);
     fmt::print("{}  {} of {} configurations, seed {}\n", to_string(space.search.mode), candidates.size(),
@@ -235,29 +153,27 @@ int sweep_run_command(const SweepArgs& args) {
   const Space space = space_of(args);
   if (args.folder.empty()) throw Error("-o", "no folder for the results", "`ctusim sweep SPACE.toml -o DIR`");
   require_runner(args);
+  if (space.search.mode == SearchMode::Pareto && (args.no_wait || args.dry_run))
+    throw Error("--no-wait, --dry-run", "a search must have results before it knows what to ask next",
+                "leave them out");
   const SweepFolder folder(args.folder, true);
   const FolderLock lock(folder.path() / "lock");
   if (!is_on_slurm(args)) require_no_slurm_job(folder);
   const StopSignal signals;
-  const auto facts = ready_traces(space, folder, [] { return StopSignal::received(); });
+  auto facts = ready_traces(space, folder, [] { return StopSignal::received(); });
   if (StopSignal::received()) return StopSignal::exit_code();
-  const std::vector<Point> points = points_of(space, candidates_of(space), facts);
-  if (points.empty()) throw Error(space.path, "leaves no point to run", "`ctusim sweep plan` says what was left out");
-  folder.write_points(points);
   folder.write_atomically(folder.path() / "space.toml", space.text);
-  const std::vector<Point> missing = missing_of(points, read_results(folder), args.retry_failed);
-  if (missing.size() < points.size())
-    fmt::print("{} of {} points are there already\n", points.size() - missing.size(), points.size());
-  run_missing(folder, points, args);
+  SweepRun run(args, space, folder, std::move(facts));
+  if (space.search.mode == SearchMode::Pareto)
+    search(run);
+  else
+    run.run(candidates_of(space));
   if (args.dry_run) return 0;
-  const StoredResults results = read_results(folder);
   collect(folder);
-  if (StopSignal::received()) {
-    fmt::print("stopped; the same command goes on\n");
-    print_status(points, results);
-    return StopSignal::exit_code();
-  }
-  return print_status(points, results);
+  if (StopSignal::received()) fmt::print("stopped; the same command goes on\n");
+  const int code = print_status(run.points(), run.results());
+  if (StopSignal::received()) return StopSignal::exit_code();
+  return args.no_wait && tally_of(run.points(), run.results()).missing != 0 ? 0 : code;
 }
 
 int sweep_status_command(const SweepArgs& args) {

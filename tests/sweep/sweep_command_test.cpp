@@ -176,6 +176,56 @@ TEST_F(SweepCommandTest, the_reference_runs_the_same_space_without_cycles) {
   }
 }
 
+TEST_F(SweepCommandTest, a_search_asks_what_its_answers_suggest_and_repeats_itself_without_running_anything) {
+  const std::string text = R"([[record]]
+scene = "gen:hair-ball?strands=60&seed=7"
+rays = "diffuse"
+size = "12x8"
+[axes]
+unit.contexts = { log2 = [1, 64] }
+node_cache.bytes = { log2 = [1024, 65536] }
+leaf_cache.bytes = { log2 = [1024, 65536] }
+[search]
+mode = "pareto"
+objectives = ["cycles_per_ray", "contexts.most_occupied"]
+population = 6
+generations = 3
+)";
+  write_text(file("search.toml"), text);
+  const Outcome first = ctusim("sweep run search.toml -o search -j 2");
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const json search = json::parse(read_text(file("search/search.json")));
+  EXPECT_EQ(search["guided"]["configurations"], 18);
+  EXPECT_EQ(search["random"]["configurations"], 18);
+  for (const char* name : {"guided", "random"}) {
+    const json& front = search[name]["front"];
+    ASSERT_GT(front.size(), 0u);
+    for (std::size_t i = 1; i < front.size(); ++i) {
+      EXPECT_GT(front[i]["cycles_per_ray"], front[i - 1]["cycles_per_ray"]);
+      EXPECT_LT(front[i]["contexts.most_occupied"], front[i - 1]["contexts.most_occupied"]);
+    }
+    EXPECT_GT(search[name]["hypervolume"], 0);
+    EXPECT_LE(search[name]["hypervolume"], 1);
+  }
+  const std::string part = read_text(file("search/parts/local.jsonl")), table = read_text(file("search/results.jsonl"));
+  EXPECT_EQ(ctusim("sweep run search.toml -o search").exit_code, 0);
+  EXPECT_EQ(read_text(file("search/parts/local.jsonl")), part);
+  EXPECT_EQ(read_text(file("search/results.jsonl")), table);
+  EXPECT_EQ(json::parse(read_text(file("search/search.json"))), search);
+
+  // Cut off in the midst, as by a kill: the search asks again from its beginning and runs only what is lost.
+  write_text(file("search/parts/local.jsonl"), part.substr(0, part.size() / 2));
+  EXPECT_EQ(ctusim("sweep run search.toml -o search").exit_code, 0);
+  EXPECT_EQ(read_text(file("search/results.jsonl")), table);
+
+  std::string misspelt = text;
+  misspelt.replace(misspelt.find("cycles_per_ray"), 14, "cycles_per_day");
+  write_text(file("misspelt.toml"), misspelt);
+  const Outcome refused = ctusim("sweep run misspelt.toml -o misspelt");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("cycles_per_day"), std::string::npos) << refused.err;
+}
+
 TEST_F(SweepCommandTest, mistakes_end_in_one_message) {
   const auto expect_refused = [](const std::string& arguments, const std::string& named) {
     const Outcome outcome = ctusim(arguments);
