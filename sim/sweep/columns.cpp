@@ -58,6 +58,7 @@ const std::vector<ColumnNote>& fixed_columns() {
       {"cycles_per_ray", "cycles/ray", "cycles over rays"},
       {"event_log_hash", "", "over (cycle, ray, step) of every visit and return"},
       {"ray_latency_cycles_sum", "cycles", "from a ray's entry into its context to its return, summed over rays"},
+      {"approximation.limited_by", "", "engine estimate: what sets the pace"},
       {"message", "", "why there is no result, or what is wrong with it"},
       {"command", "", "that repeats the point, in the sweep's folder"},
   };

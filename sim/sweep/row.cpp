@@ -76,6 +76,16 @@ ordered_json metrics(const ordered_json& run) {
   return row;
 }
 
+/// What a run to its end must not have; engines that return no rays leave out what they cannot know.
+std::string problem_of(const ordered_json& run) {
+  const auto count = [&](const char* key) -> std::uint64_t {
+    return run.contains(key) && run[key].is_number() ? run[key].get<std::uint64_t>() : 0;
+  };
+  if (count("wrong_hits") != 0) return fmt::format("{} wrong hits", count("wrong_hits"));
+  if (count("other_visits") != 0) return fmt::format("{} visits that are not the recorded ones", count("other_visits"));
+  return run.contains("first_difference") ? run["first_difference"].get<std::string>() : std::string();
+}
+
 std::string text_of(const ordered_json& json) {
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
@@ -94,10 +104,9 @@ ordered_json typed(const std::string& value) {
 std::string result_line(const Point& point, const std::string& run_json) {
   const ordered_json run = ordered_json::parse(run_json);
   ordered_json row = {{"id", point.id}};
-  const bool right = run.at("wrong_hits") == 0 && run.value("other_visits", 0) == 0 &&
-                     run.value("first_difference", std::string()).empty();
-  row["status"] = right ? kDone : kWrong;
-  row["message"] = right ? std::string() : fmt::format("{} wrong hits", run.at("wrong_hits").get<std::uint64_t>());
+  const std::string problem = problem_of(run);
+  row["status"] = problem.empty() ? kDone : kWrong;
+  row["message"] = problem;
   row.update(metrics(run));
   return text_of(row);
 }

@@ -30,10 +30,10 @@ rays = "diffuse"
 size = "12x8"
 [axes]
 mask_test.design = ["none", "mask-lut", "projection", "comparators"]
-node_cache.bytes = { log2 = [1024, 16384] }
+node_cache.bytes = { log2 = [1024, 4096] }
 unit.contexts = [4, 16]
 )";
-constexpr std::size_t kPoints = 2 * 4 * 5 * 2;
+constexpr std::size_t kPoints = 2 * 4 * 3 * 2;
 
 std::uint64_t seed_of_run() {
   const char* given = std::getenv("CTU_SEED");

@@ -162,12 +162,12 @@ TEST_F(SweepCommandTest, a_time_limit_ends_long_points_and_records_them) {
   for (const json& row : rows_of(file("late/results.jsonl")))
     EXPECT_TRUE(row["status"] == "timeout" || row["status"] == "done") << row["message"];
   EXPECT_EQ(ctusim("sweep run space.toml -o late --retry-failed").exit_code, 0);
-  EXPECT_EQ(read_text(file("late/results.jsonl")), read_text(file("one/results.jsonl")));
+  EXPECT_EQ(read_text(file("late/results.jsonl")), read_text(file("once/results.jsonl")));
 }
 
 TEST_F(SweepCommandTest, the_reference_runs_the_same_space_without_cycles) {
   ASSERT_EQ(ctusim("sweep run space.toml -o reference --engine reference").exit_code, 0);
-  const auto timed = rows_of(file("one/results.jsonl")), untimed = rows_of(file("reference/results.jsonl"));
+  const auto timed = rows_of(file("once/results.jsonl")), untimed = rows_of(file("reference/results.jsonl"));
   ASSERT_EQ(untimed.size(), timed.size());
   for (std::size_t i = 0; i < timed.size(); ++i) {
     EXPECT_EQ(untimed[i].count("cycles"), 0u);
