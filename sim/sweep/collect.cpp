@@ -97,9 +97,9 @@ std::string columns_csv(const Table& table) {
 
 Table collect(const SweepFolder& folder) {
   Table table = make_table(folder.read_points(), read_results(folder), read_notes(folder));
-  folder.write_atomically(folder.path() / "results.jsonl", to_jsonl(table));
-  folder.write_atomically(folder.path() / "results.csv", to_csv(table));
-  folder.write_atomically(folder.path() / "columns.csv", columns_csv(table));
+  folder.replace(folder.path() / "results.jsonl", to_jsonl(table));
+  folder.replace(folder.path() / "results.csv", to_csv(table));
+  folder.replace(folder.path() / "columns.csv", columns_csv(table));
   write_sqlite(table, folder.path() / "results.sqlite");
   return table;
 }

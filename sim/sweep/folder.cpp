@@ -30,8 +30,17 @@ SweepFolder::SweepFolder(const fs::path& path, bool create) : path_(path) {
                 create ? "check the path and its permissions" : "`ctusim sweep run SPACE.toml -o DIR` makes one");
 }
 
+namespace {
+fs::path temporary_for(const fs::path& file) { return fmt::format("{}.{}.new", file.string(), getpid()); }
+}  // namespace
+
+void SweepFolder::replace(const fs::path& file, const std::string& text) const {
+  DurableFile(temporary_for(file), DurableFile::Open::Truncate).append(text);
+  fs::rename(temporary_for(file), file);
+}
+
 void SweepFolder::write_atomically(const fs::path& file, const std::string& text) const {
-  const fs::path temporary = fmt::format("{}.{}.new", file.string(), getpid());
+  const fs::path temporary = temporary_for(file);
   {
     DurableFile out(temporary, DurableFile::Open::Truncate);
     out.append(text);
@@ -44,7 +53,7 @@ void SweepFolder::write_atomically(const fs::path& file, const std::string& text
 void SweepFolder::write_points(const std::vector<Point>& points) const {
   std::string text;
   for (const Point& point : points) text += to_line(point) + "\n";
-  write_atomically(points_file(), text);
+  replace(points_file(), text);
 }
 
 std::vector<Point> SweepFolder::read_points() const {

@@ -28,6 +28,8 @@ class SweepFolder {
 
   /// Whole or not at all, and on the disk when it returns.
   void write_atomically(const std::filesystem::path& file, const std::string& text) const;
+  /// Whole or not at all, for what can be made again: after a power cut it may be as it was before.
+  void replace(const std::filesystem::path& file, const std::string& text) const;
   void write_points(const std::vector<Point>& points) const;
   /// Error when there are none: nothing was run here.
   std::vector<Point> read_points() const;

@@ -1,6 +1,7 @@
 // Results as they were appended: parts/*.jsonl of a sweep's folder.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -17,13 +18,17 @@ class PartWriter {
  public:
   /// parts/NAME.jsonl; what a write left that did not come to its end is cut off, and said on stderr.
   PartWriter(const SweepFolder& folder, const std::string& name);
-  /// On the disk when it returns. `timing` as well, but not before `row`.
+  /// Syncs what was not yet.
+  ~PartWriter();
+  /// With the system when it returns, so that no end of this process loses it; on the disk within a quarter of a second
+  /// of further rows, or at the end. `timing` as well, but not before `row`.
   void append(const std::string& row, const std::string& timing);
 
  private:
   FolderLock lock_;
   std::uint64_t cut_bytes_;
   DurableFile rows_, timings_;
+  std::chrono::steady_clock::time_point last_sync_{};
 };
 
 struct StoredResults {

@@ -217,7 +217,7 @@ void search(SweepRun& run) {
                               {{"configurations", random.size()},
                                {"hypervolume", random_covers},
                                {"front", front_json(run, random_front, objectives)}}}};
-  run.folder().write_atomically(run.folder().path() / "search.json", json.dump(1) + "\n");
+  run.folder().replace(run.folder().path() / "search.json", json.dump(1) + "\n");
 }
 
 }  // namespace ctu::sweep

@@ -162,7 +162,7 @@ int sweep_run_command(const SweepArgs& args) {
   const StopSignal signals;
   auto facts = ready_traces(space, folder, [] { return StopSignal::received(); });
   if (StopSignal::received()) return StopSignal::exit_code();
-  folder.write_atomically(folder.path() / "space.toml", space.text);
+  folder.replace(folder.path() / "space.toml", space.text);
   SweepRun run(args, space, folder, std::move(facts));
   if (space.search.mode == SearchMode::Pareto)
     search(run);
