@@ -58,6 +58,19 @@ const std::vector<ColumnNote>& fixed_columns() {
       {"cycles_per_ray", "cycles/ray", "cycles over rays"},
       {"event_log_hash", "", "over (cycle, ray, step) of every visit and return"},
       {"ray_latency_cycles_sum", "cycles", "from a ray's entry into its context to its return, summed over rays"},
+      {"energy_per_ray_pj", "pJ/ray", "dynamic energy of all stages and memory, and leakage, by the energy table"},
+      {"energy.table", "", "the energies' table"},
+      {"energy.technology", "", "what the energies are of"},
+      {"energy.table_hash", "", "of the table's content"},
+      {"energy.clock_mhz", "MHz", "that leakage is counted at"},
+      {"energy.dynamic_pj", "pJ", "of all events of the run"},
+      {"energy.static_pj", "pJ", "leakage in the run's cycles"},
+      {"energy.static_of", "", "what leaks: bits, or bits and gates"},
+      {"on_chip_bits", "bits", "of all memories and registers of the unit"},
+      {"on_chip_memory_bits", "bits", "of these, in memories"},
+      {"area_memory_um2", "um2", "of the memories"},
+      {"area_gate_equivalents", "NAND2 gates", "of logic and registers; empty where it is not known without synthesis"},
+      {"area_um2", "um2", "of memories and gates; empty where gates are not known"},
       {"approximation.limited_by", "", "engine estimate: what sets the pace"},
       {"message", "", "why there is no result, or what is wrong with it"},
       {"command", "", "that repeats the point, in the sweep's folder"},
@@ -101,6 +114,8 @@ ColumnNote note_of(const std::string& column, const ColumnNotes& told) {
   for (const ColumnNote& note : fixed_columns())
     if (note.name == column) return note;
   if (begins_with(column, "config.")) return note_of_parameter(column);
+  if (begins_with(column, "energy.stage.")) return {column, "pJ/ray", "dynamic energy of the stage"};
+  if (begins_with(column, "on_chip.")) return {column, "bits", "on chip, of the stage's memories and registers"};
   if (begins_with(column, "stage.")) {
     if (ends_with(column, ".busy")) return {column, "", "share of cycles in which the stage worked: 0 to 1"};
     if (ends_with(column, ".stalled")) return {column, "", "share of cycles in which it had work and was held up"};

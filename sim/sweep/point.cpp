@@ -17,7 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr int kRowVersion = 1;  // raised when a change of the simulator or of the columns makes old rows wrong
+constexpr int kRowVersion = 2;  // raised when a change of the simulator or of the columns makes old rows wrong
 
 ordered_json to_json(const TraceFacts& t) {
   return {{"name", t.name},

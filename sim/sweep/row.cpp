@@ -58,6 +58,7 @@ void add_ray_cycles(const ordered_json& run, ordered_json& row) {
 void add_scalars(const ordered_json& from, const std::string& prefix, ordered_json& row) {
   for (const auto& [key, value] : from.items()) {
     if (prefix.empty() && is_no_result(key)) continue;
+    if (key.rfind("area_", 0) == 0 && value.is_string()) continue;  // not known: no number, no cell
     if (value.is_object())
       add_scalars(value, prefix + key + ".", row);
     else if (value.is_primitive())
@@ -65,9 +66,22 @@ void add_scalars(const ordered_json& from, const std::string& prefix, ordered_js
   }
 }
 
+/// Energy of each stage, and its bits on chip.
+void add_costs(const ordered_json& run, ordered_json& row) {
+  if (run.contains("energy") && run["energy"].contains("stages"))
+    for (const ordered_json& stage : run["energy"]["stages"])
+      row["energy.stage." + stage.at("stage").get<std::string>()] = stage.at("pj_per_ray");
+  if (!run.contains("on_chip")) return;
+  for (const ordered_json& structure : run["on_chip"]) {
+    ordered_json& bits = row["on_chip." + structure.at("stage").get<std::string>()];
+    bits = (bits.is_null() ? 0 : bits.get<std::uint64_t>()) + structure.at("bits").get<std::uint64_t>();
+  }
+}
+
 ordered_json metrics(const ordered_json& run) {
   ordered_json row;
   add_scalars(run, "", row);
+  add_costs(run, row);
   add_stages(run, row);
   add_ray_cycles(run, row);
   if (run.contains("counters"))

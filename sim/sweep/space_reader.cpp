@@ -286,7 +286,7 @@ void SpaceReader::read_search(const toml::table& table) {
   if (const toml::node* objectives = table.get("objectives")) search.objectives = reader_.values(*objectives);
   if (search.mode == SearchMode::Pareto && search.objectives.size() < 2)
     reader_.refuse(table, "a Pareto search needs two objectives at least",
-                   "write objectives = [\"cycles_per_ray\", \"mask_test.on_chip_bits\"]");
+                   "write objectives = [\"cycles_per_ray\", \"on_chip_bits\"]");
   const auto bounded = [&](const char* key, std::uint32_t otherwise) {
     const std::uint64_t value = reader_.number(table, key, otherwise);
     if (value < 1 || value > 100000)

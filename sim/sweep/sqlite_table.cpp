@@ -104,6 +104,7 @@ void write_sqlite(const Table& table, const std::filesystem::path& file) {
   std::filesystem::remove(fresh);
   {
     Database database(fresh);
+    database.run("PRAGMA synchronous = OFF; PRAGMA journal_mode = OFF");  // a file of that name is whole already
     database.run("BEGIN");
     if (!table.columns.empty()) write_results(database, table);
     database.run("CREATE TABLE columns (name TEXT PRIMARY KEY, unit TEXT, meaning TEXT)");
