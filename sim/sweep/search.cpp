@@ -92,13 +92,21 @@ std::vector<Judged> front_of(const std::vector<Judged>& all) {
   return front;
 }
 
-/// Each objective in shares of the range that both searches have seen.
+/// Each objective in shares of the range that both searches have seen: of its logarithm where every value has one, for
+/// cycles and bits of one space span orders of magnitude.
 class Scale {
  public:
-  Scale(const std::vector<Judged>& a, const std::vector<Judged>& b) {
-    for (const auto* all : {&a, &b})
-      for (const Judged& one : *all)
-        if (one.objectives) widen(*one.objectives);
+  Scale(const std::vector<Judged>& a, const std::vector<Judged>& b, std::size_t objectives)
+      : logarithmic_(objectives, true),
+        low_(objectives, std::numeric_limits<double>::infinity()),
+        high_(objectives, -std::numeric_limits<double>::infinity()) {
+    each(a, b, [&](std::size_t i, double value) {
+      if (value <= 0) logarithmic_[i] = false;
+    });
+    each(a, b, [&](std::size_t i, double value) {
+      low_[i] = std::min(low_[i], scaled(i, value));
+      high_[i] = std::max(high_[i], scaled(i, value));
+    });
   }
   /// Of the box from the best to a tenth beyond the worst of each objective: 0 to 1.
   double covered(const std::vector<Judged>& front) const {
@@ -107,20 +115,22 @@ class Scale {
     for (const Judged& one : front) {
       Objectives shares;
       for (std::size_t i = 0; i < low_.size(); ++i)
-        shares.push_back(high_[i] > low_[i] ? ((*one.objectives)[i] - low_[i]) / (high_[i] - low_[i]) : 0);
+        shares.push_back(high_[i] > low_[i] ? (scaled(i, (*one.objectives)[i]) - low_[i]) / (high_[i] - low_[i]) : 0);
       points.push_back(shares);
     }
     return hypervolume(points, Objectives(low_.size(), kBeyond)) / std::pow(kBeyond, double(low_.size()));
   }
 
  private:
-  void widen(const Objectives& values) {
-    if (low_.empty()) low_ = high_ = values;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      low_[i] = std::min(low_[i], values[i]);
-      high_[i] = std::max(high_[i], values[i]);
-    }
+  template <class Visit>
+  static void each(const std::vector<Judged>& a, const std::vector<Judged>& b, Visit&& visit) {
+    for (const auto* all : {&a, &b})
+      for (const Judged& one : *all)
+        for (std::size_t i = 0; one.objectives && i < one.objectives->size(); ++i) visit(i, (*one.objectives)[i]);
   }
+  double scaled(std::size_t i, double value) const { return logarithmic_[i] ? std::log(value) : value; }
+
+  std::vector<bool> logarithmic_;
   Objectives low_, high_;
 };
 
@@ -194,7 +204,7 @@ void search(SweepRun& run) {
   const std::vector<Judged> random =
       judge.judge(draw_candidates(space, guided.size(), plan.seed, kRandomStream, accept));
   if (random.empty()) return;
-  const Scale scale(guided, random);
+  const Scale scale(guided, random, judge.objectives().size());
   const auto guided_front = front_of(guided), random_front = front_of(random);
   const double guided_covers = scale.covered(guided_front), random_covers = scale.covered(random_front);
   const auto& objectives = judge.objectives();
