@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <map>
@@ -40,9 +41,15 @@ std::uint64_t seed_of_run() {
   return given != nullptr ? std::strtoull(given, nullptr, 0) : std::random_device()();
 }
 
-/// `ctusim sweep run` as its own process, ended by `signal` after so many milliseconds unless it ends before; its exit
-/// code, or minus the signal.
-int run_and_end(const std::filesystem::path& folder, int signal, int milliseconds) {
+std::size_t rows_of(const std::filesystem::path& part) {
+  if (!std::filesystem::exists(part)) return 0;
+  const std::string text = read_text(part);
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// `ctusim sweep run` as its own process, ended by `signal` so many milliseconds after its part has so many rows,
+/// unless it ends before; its exit code, or minus the signal.
+int run_and_end(const std::filesystem::path& folder, int signal, std::size_t rows, int milliseconds) {
   std::fflush(stdout);
   const pid_t process = ::fork();
   if (process == 0) {
@@ -53,6 +60,11 @@ int run_and_end(const std::filesystem::path& folder, int signal, int millisecond
     ::_exit(98);
   }
   int status = 0;
+  while (rows_of(folder / "killed/parts/local.jsonl") < rows) {
+    if (::waitpid(process, &status, WNOHANG) == process)
+      return WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
   ::kill(process, signal);
   ::waitpid(process, &status, 0);
@@ -71,14 +83,11 @@ std::map<std::string, int> recorded(const std::filesystem::path& part) {
 
 class KillTest : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    calm_ = new ScratchFolder;
-    write_text(calm_->path() / "space.toml", kSpace);
-    ASSERT_EQ(run_program(calm_->path(), "sweep run space.toml -o calm -j 2").exit_code, 0);
-  }
-  static void TearDownTestSuite() { delete calm_; }
   void SetUp() override { write_text(folder_.path() / "space.toml", kSpace); }
   std::filesystem::path part() const { return folder_.path() / "killed/parts/local.jsonl"; }
+
+  /// Nobody disturbs it.
+  void run_calm() const { ASSERT_EQ(run_program(folder_.path(), "sweep run space.toml -o calm -j 2").exit_code, 0); }
 
   /// Ended by `signal` until it comes to its end by itself; then as the one that nobody disturbed.
   void end_again_and_again(int signal, int expected) {
@@ -86,9 +95,10 @@ class KillTest : public ::testing::Test {
     fmt::print("seed {} (CTU_SEED={} runs it again)\n", seed, seed);
     std::mt19937_64 random(seed);
     int ended = 0, amid = 0;
-    for (int tries = 0; tries < 12; ++tries) {
+    for (int tries = 0; tries < 20; ++tries) {
       const auto before = recorded(part());
-      const int outcome = run_and_end(folder_.path(), signal, static_cast<int>(random() % 160));
+      const int outcome =
+          run_and_end(folder_.path(), signal, before.size() + random() % 9, static_cast<int>(random() % 30));
       const auto after = recorded(part());
       for (const auto& [id, lines] : before) EXPECT_EQ(after.count(id), 1u) << "lost: " << id;
       for (const auto& [id, lines] : after) EXPECT_EQ(lines, 1) << "run twice: " << id;
@@ -97,19 +107,18 @@ class KillTest : public ::testing::Test {
       ++ended;
       if (!after.empty() && after.size() < kPoints) ++amid;
     }
+    run_calm();
     fmt::print("ended {} times, {} of them between the first and the last point\n", ended, amid);
-    EXPECT_GT(ended, 0);
+    EXPECT_GT(amid, 0);
     ASSERT_EQ(run_program(folder_.path(), "sweep run space.toml -o killed -j 2").exit_code, 0);
     EXPECT_EQ(recorded(part()).size(), kPoints);
     for (const auto& [id, lines] : recorded(part())) EXPECT_EQ(lines, 1) << "run twice: " << id;
     for (const char* name : {"results.jsonl", "results.csv", "results.sqlite", "columns.csv"})
-      EXPECT_EQ(read_text(folder_.path() / "killed" / name), read_text(calm_->path() / "calm" / name)) << name;
+      EXPECT_EQ(read_text(folder_.path() / "killed" / name), read_text(folder_.path() / "calm" / name)) << name;
   }
 
   ScratchFolder folder_;
-  static ScratchFolder* calm_;
 };
-ScratchFolder* KillTest::calm_ = nullptr;
 
 TEST_F(KillTest, killed_at_random_moments_it_loses_and_repeats_nothing) { end_again_and_again(SIGKILL, -SIGKILL); }
 
@@ -120,8 +129,8 @@ TEST_F(KillTest, interrupted_at_random_moments_it_keeps_what_is_done) {
   std::mt19937_64 random(seed);
   for (int tries = 0; tries < 3; ++tries) {
     const auto before = recorded(part());
-    const int outcome =
-        run_and_end(folder_.path(), tries == 1 ? SIGTERM : SIGINT, 40 + static_cast<int>(random() % 80));
+    const int outcome = run_and_end(folder_.path(), tries == 1 ? SIGTERM : SIGINT, before.size() + 1 + random() % 9,
+                                    static_cast<int>(random() % 30));
     const auto after = recorded(part());
     EXPECT_GE(after.size(), before.size());
     if (outcome == 0) break;
@@ -130,10 +139,13 @@ TEST_F(KillTest, interrupted_at_random_moments_it_keeps_what_is_done) {
     for (const auto& [id, lines] : after) EXPECT_EQ(lines, 1);
   }
   ASSERT_EQ(run_program(folder_.path(), "sweep run space.toml -o killed -j 2").exit_code, 0);
-  EXPECT_EQ(read_text(folder_.path() / "killed/results.jsonl"), read_text(calm_->path() / "calm/results.jsonl"));
+  run_calm();
+  EXPECT_EQ(read_text(folder_.path() / "killed/results.jsonl"), read_text(folder_.path() / "calm/results.jsonl"));
 }
 
 TEST_F(KillTest, two_runs_do_not_work_in_one_folder) {
+  write_text(folder_.path() / "space.toml",
+             "[[record]]\nscene = \"gen:tetra\"\nsize = \"4x4\"\n[axes]\nunit.contexts = { range = [1, 256] }\n");
   std::fflush(stdout);
   const pid_t first = ::fork();
   if (first == 0) {
@@ -148,11 +160,8 @@ TEST_F(KillTest, two_runs_do_not_work_in_one_folder) {
   EXPECT_EQ(second.exit_code, 2);
   EXPECT_NE(second.err.find(fmt::format("another sweep works here (process {})", first)), std::string::npos)
       << second.err;
-  ::kill(first, SIGCONT);
-  int status = 0;
-  ::waitpid(first, &status, 0);
-  EXPECT_EQ(WEXITSTATUS(status), 0);
-  EXPECT_EQ(read_text(folder_.path() / "killed/results.jsonl"), read_text(calm_->path() / "calm/results.jsonl"));
+  ::kill(first, SIGKILL);
+  ::waitpid(first, nullptr, 0);
 }
 
 }  // namespace
