@@ -134,6 +134,8 @@ def draw(designs, bit_table, folder):
     script = f"""set terminal svg size 760,460 font 'sans,12' background 'white'
 set output '{PLOT}'
 set logscale x
+set xrange [150:1600]
+set xtics (150, 200, 300, 500, 700, 1000, 1500)
 set xlabel 'memory and registers of the unit, KiB'
 set ylabel 'cycles per ray, over those without culling'
 set key outside right
