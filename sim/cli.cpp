@@ -7,6 +7,7 @@
 
 #include "model/base/version.h"
 #include "sim/commands.h"
+#include "sim/report/report_command.h"
 #include "sim/sweep/sweep_command.h"
 
 namespace ctu::sim {
@@ -114,6 +115,7 @@ struct Parsed {
   BenchArgs bench;
   CheckArgs check;
   sweep::SweepArgs sweep;
+  report::ReportArgs report;
   int exit_code = 0;
 };
 
@@ -572,6 +574,7 @@ int run_cli(int argc, const char* const* argv) {
   add_bench(app, parsed);
   add_check(app, parsed);
   sweep::add_sweep(app, parsed.sweep, parsed.exit_code);
+  report::add_report(app, parsed.report, parsed.exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -93,7 +93,7 @@ std::string describe(const RayVisit& visit) {
   if (is_of_packet(step))
     return fmt::format("packet's {}node {}, {} of {} children met", number, step.ref, std::popcount(step.survivors()),
                        std::popcount(step.box_hits()));
-  return number + fmt::format("node {}, {} boxes hit, {} culled", step.ref, std::popcount(step.box_hits()),
+  return number + fmt::format("node {}, {} hit, {} culled", step.ref, std::popcount(step.box_hits()),
                               std::popcount(step.box_hits()) - std::popcount(step.survivors()));
 }
 

@@ -31,7 +31,7 @@ std::vector<RayVisit> ray_visits(const pipeline::Timeline& timeline);
 /// Boxes were hit, and the mask test has thrown all of them away.
 bool is_all_culled(const RayVisit& visit);
 
-/// "visit 3: node 17, 3 boxes hit, 1 culled"; without an outcome "visit".
+/// "visit 3: node 17, 3 hit, 1 culled"; without an outcome "visit".
 std::string describe(const RayVisit& visit);
 
 }  // namespace ctu::sim
