@@ -9,6 +9,7 @@
 #include "sim/commands.h"
 #include "sim/report/report_command.h"
 #include "sim/sweep/sweep_command.h"
+#include "sim/tailor/tailor_command.h"
 
 namespace ctu::sim {
 namespace {
@@ -116,6 +117,7 @@ struct Parsed {
   CheckArgs check;
   sweep::SweepArgs sweep;
   report::ReportArgs report;
+  tailor::TailorArgs tailor;
   int exit_code = 0;
 };
 
@@ -575,6 +577,7 @@ int run_cli(int argc, const char* const* argv) {
   add_check(app, parsed);
   sweep::add_sweep(app, parsed.sweep, parsed.exit_code);
   report::add_report(app, parsed.report, parsed.exit_code);
+  tailor::add_tailor(app, parsed.tailor, parsed.exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -13,6 +13,7 @@
 #include "model/base/hash.h"
 #include "model/base/nearest.h"
 #include "model/base/read_file.h"
+#include "sim/config_parts.h"
 
 namespace ctu::sim {
 namespace {
@@ -64,11 +65,30 @@ std::optional<ParameterValue> value_of(const toml::node& node) {
   return std::nullopt;
 }
 
-void apply_table(UnitConfig& config, const toml::table& table, const std::string& prefix, const std::string& path) {
+/// The section [parts], which is no configuration; null: it is not wanted here.
+void take_parts(const toml::table& section, const std::string& path, PartValues* parts) {
+  const std::string where = fmt::format("{}:{}", path, section.source().begin.line);
+  if (parts == nullptr)
+    throw Error(where,
+                "[parts]: this is a unit tailored to some scenes, which only `ctusim run` checks a trace against",
+                "run it with `ctusim run`, or take the section out for a unit with every part");
+  for (const auto& [name, node] : section) {
+    const auto value = value_of(node);
+    if (!value) throw Error(where, fmt::format("parts.{} is no value", std::string(name.str())), "");
+    (*parts)[std::string(name.str())] = *value;
+  }
+}
+
+void apply_table(UnitConfig& config, const toml::table& table, const std::string& prefix, const std::string& path,
+                 PartValues* parts) {
   for (const auto& [name, node] : table) {
     const std::string key = prefix + std::string(name.str());
+    if (key == "parts" && node.is_table()) {
+      take_parts(*node.as_table(), path, parts);
+      continue;
+    }
     if (const auto* inner = node.as_table()) {
-      apply_table(config, *inner, key + ".", path);
+      apply_table(config, *inner, key + ".", path, parts);
       continue;
     }
     const std::string where = fmt::format("{}:{}", path, node.source().begin.line);
@@ -93,12 +113,12 @@ void check_depth(const std::string& text, const std::string& path) {
   }
 }
 
-void apply_file(UnitConfig& config, const std::string& path) {
+void apply_file(UnitConfig& config, const std::string& path, PartValues* parts) {
   constexpr std::uint64_t kMostBytes = 1u << 20;
   const std::string text = read_file(path, kMostBytes, "`ctusim config show` prints a complete example");
   check_depth(text, path);
   try {
-    apply_table(config, toml::parse(text, path), "", path);
+    apply_table(config, toml::parse(text, path), "", path, parts);
   } catch (const toml::parse_error& e) {
     const auto line = e.source().begin.line;
     throw Error(line > 0 ? fmt::format("{}:{}", path, line) : path, std::string(e.description()),
@@ -128,6 +148,14 @@ void apply_set(UnitConfig& config, const std::string& assignment) {
   assign(config, p, parse_value(p, std::string_view(assignment).substr(equals + 1), where), where);
 }
 
+UnitConfig load(const std::string& path, const std::vector<std::string>& sets, PartValues* parts) {
+  UnitConfig config;
+  if (!path.empty()) apply_file(config, path, parts);
+  for (const std::string& assignment : sets) apply_set(config, assignment);
+  pipeline::check_consistency(config);
+  return config;
+}
+
 std::string quoted(const ParameterValue& value) {
   return std::holds_alternative<std::string>(value) ? fmt::format("\"{}\"", std::get<std::string>(value))
                                                     : to_text(value);
@@ -142,11 +170,11 @@ std::string to_text(const ParameterValue& value) {
 }
 
 UnitConfig load_config(const std::string& path, const std::vector<std::string>& sets) {
-  UnitConfig config;
-  if (!path.empty()) apply_file(config, path);
-  for (const std::string& assignment : sets) apply_set(config, assignment);
-  pipeline::check_consistency(config);
-  return config;
+  return load(path, sets, nullptr);
+}
+
+UnitConfig load_config_with_parts(const std::string& path, const std::vector<std::string>& sets, PartValues& parts) {
+  return load(path, sets, &parts);
 }
 
 std::string config_to_toml(const UnitConfig& config, bool documented) {

@@ -10,6 +10,7 @@
 #include "sim/commands.h"
 #include "sim/config_file.h"
 #include "sim/scene_args.h"
+#include "sim/tailor/tailored_config.h"
 #include "sim/timeline/timeline_file.h"
 #include "sim/unit_runner.h"
 
@@ -106,7 +107,9 @@ int run_command(const RunArgs& args) {
   require_engine(args.engine);
   check_engine_heeds(args);
   plan.engine = args.engine;
-  plan.config = load_config(args.unit.config_path, args.unit.sets);
+  TailoredConfig tailored = load_tailored_config(args.unit.config_path, args.unit.sets);
+  plan.config = tailored.config;
+  plan.parts = tailored.parts;
   plan.options = run_options(args.unit);
   std::optional<pipeline::Timeline> timeline = watch(args, plan.options);
   if (timeline) plan.options.timeline = &*timeline;

@@ -131,6 +131,10 @@ void require_engine(const std::string& engine) {
 
 RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
   const cull::MaskTester tester = trace.tester(plan.config.mask_test.design);
+  const reference::PacketPlan packets = trace.reader().manifest().packets.plan;
+  const energy::UnitShape shape =
+      energy::unit_shape(plan.config, trace.unit_image(tester.design()), tester, packets.size, packets.most_entries);
+  if (plan.parts) tailor::require_parts(*plan.parts, shape, trace.reader().path());
   RunRecord record;
   record.engine = plan.engine;
   record.mode = name_of(plan.options.mode, kModes);
@@ -151,9 +155,6 @@ RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
     run_estimate(trace, tester, plan, record);
   else
     run_cycle(trace, tester, plan, record);
-  const reference::PacketPlan packets = trace.reader().manifest().packets.plan;
-  const energy::UnitShape shape =
-      energy::unit_shape(plan.config, trace.unit_image(tester.design()), tester, packets.size, packets.most_entries);
   record.cost = energy::cost_of_run(shape, record.result, plan.energy);
   return record;
 }

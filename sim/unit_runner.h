@@ -1,6 +1,7 @@
 // One run of the unit on a loaded trace, from words of the command line to a RunRecord.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "model/unit/run.h"
@@ -8,6 +9,7 @@
 #include "sim/energy/energy_table.h"
 #include "sim/loaded_trace.h"
 #include "sim/run_record.h"
+#include "sim/tailor/unit_parts.h"
 
 namespace ctu::sim {
 
@@ -26,6 +28,7 @@ struct RunPlan {
   unit::RunOptions options;
   traces::RayRange range;
   energy::EnergyTable energy = energy::EnergyTable::standard();
+  std::optional<tailor::UnitParts> parts;  ///< that the unit was built with; none: what the trace needs
 };
 
 /// Runs and times it; loading and table building are not part of the time.

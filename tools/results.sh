@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md and docs/numerics.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor)
 
 page=docs/results.md
 plots=docs/plots
@@ -426,10 +426,31 @@ raydist() {
   put raydist
 }
 
+# A unit for one scene: both units, what changed and why, what gates say. With a build of it in gates, which takes minutes.
+tailored() {  # LABEL SCENE OPTION...
+  local label=$1 scene=$2 file
+  shift 2
+  file=$(awk -v name="$scene" '$1 == name { print $2 }' "$index")
+  echo "**$label** (\`record $scene $*\`)"
+  echo
+  keep log "$program" record "${file:+$(dirname "$index")/}${file:-$scene}" -o "$scratch/tailored.ctut" --rays diffuse --size 240x135 "$@"
+  keep row "$program" tailor "$scratch/tailored.ctut" --slowdown 1% --build-rtl --rtl-rays 1000 --markdown -o "$scratch/unit.toml"
+  cat "$scratch/row"
+  echo
+}
+
+tailor() {
+  {
+    if listed straight-hair; then tailored "hair" straight-hair; else tailored "hair" gen:straight-hair; fi
+    if listed sponza; then tailored "an interior" sponza --eye=-14,2,0 --target=10,4,0 --up 0,1,0; fi
+  } >"$scratch/tailor"
+  put tailor
+}
+
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | packets | raybox | leaves | together | variants | designs | tables | compression | precision | area | numerics | raydist) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, packets, raybox, leaves, together, variants, designs, tables, compression, precision, area, numerics or raydist" >&2; exit 2 ;;
+    culling | auto | paper | packets | raybox | leaves | together | variants | designs | tables | compression | precision | area | numerics | raydist | tailor) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, packets, raybox, leaves, together, variants, designs, tables, compression, precision, area, numerics, raydist or tailor" >&2; exit 2 ;;
   esac
 done
 exit "$failed"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sim/energy/gate_area.h"
 #include "sim/energy/unit_shape.h"
 
 namespace ctu::energy {
@@ -32,6 +33,11 @@ CostReport cost_of_unit(const UnitShape& shape, const EnergyTable& table) {
   report.on_chip_bits = bits_of(report.structures);
   report.memory_bits = bits_of(report.structures, Keeping::Memory);
   report.memory_um2 = static_cast<double>(report.memory_bits) * table.at("area.memory_bit");
+  const GateArea gates = GateTable::standard().of(shape);
+  if (gates.is_known()) {
+    report.gate_equivalents = gates.gate_equivalents;
+    report.area_um2 = report.memory_um2 + gates.gate_equivalents * table.at("area.gate");
+  }
   return report;
 }
 
@@ -41,7 +47,9 @@ CostReport cost_of_run(const UnitShape& shape, const pipeline::UnitResult& resul
   report.has_energy = has_event_counts(result);
   if (!report.has_energy) return report;
   report.items = event_energy(shape, result, table);
-  const double nanowatts = static_cast<double>(report.on_chip_bits) * table.at("leakage.memory_bit") +
+  // Registers are among the gates, where these are known.
+  const std::uint64_t bits = report.gate_equivalents ? report.memory_bits : report.on_chip_bits;
+  const double nanowatts = static_cast<double>(bits) * table.at("leakage.memory_bit") +
                            report.gate_equivalents.value_or(0) * table.at("leakage.gate");
   report.static_pj = table.leakage_pj(nanowatts, static_cast<double>(result.cycles));
   return report;

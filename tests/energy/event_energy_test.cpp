@@ -87,7 +87,8 @@ TEST(EventEnergy, a_report_adds_up) {
   EXPECT_NEAR(stages, report.dynamic_pj(), 1e-9 * stages);
   EXPECT_DOUBLE_EQ(report.pj_per_ray(), report.dynamic_pj() + report.static_pj);
   // 1000 cycles at 500 MHz of 25 nW a bit, and of the gates where they are known.
-  const double nanowatts = double(report.on_chip_bits) * 25 + report.gate_equivalents.value_or(0) * 17.4;
+  const auto bits = report.gate_equivalents ? report.memory_bits : report.on_chip_bits;
+  const double nanowatts = double(bits) * 25 + report.gate_equivalents.value_or(0) * 17.4;
   EXPECT_NEAR(report.static_pj, nanowatts * 2e-3, 1e-6 * report.static_pj);
 }
 
