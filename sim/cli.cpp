@@ -7,6 +7,7 @@
 
 #include "model/base/version.h"
 #include "sim/commands.h"
+#include "sim/ladder/ladder_command.h"
 #include "sim/report/report_command.h"
 #include "sim/sweep/sweep_command.h"
 #include "sim/tailor/tailor_command.h"
@@ -118,6 +119,7 @@ struct Parsed {
   sweep::SweepArgs sweep;
   report::ReportArgs report;
   tailor::TailorArgs tailor;
+  ladder::LadderArgs ladder;
   int exit_code = 0;
 };
 
@@ -174,7 +176,7 @@ void add_run(CLI::App& app, Parsed& parsed) {
       ->add_option(
           "--engine", parsed.run.engine,
           "cycle: the timed unit; reference: untimed; rtl: the unit in gates; both: in lock step; estimate: in "
-          "closed form")
+          "closed form; sampled: the timed unit on chunks of the rays")
       ->capture_default_str();
   command->add_option("--json", parsed.run.json_path, "write the result here");
   command->add_option("--waves", parsed.run.waves_path, "write a waveform (VCD) of --window here");
@@ -184,11 +186,19 @@ void add_run(CLI::App& app, Parsed& parsed) {
   command->add_option("--window", parsed.run.window, "cycles A:B of the waveform, or of the timeline [0:4999]");
   command->add_option("--energy", parsed.run.energy_path,
                       "table of energies and areas (TOML) instead of the 45 nm one");
+  command
+      ->add_option("--error", parsed.run.error, "sampled: half of the interval, relative; more is simulated until then")
+      ->capture_default_str();
+  command->add_option("--confidence", parsed.run.confidence, "sampled: with which the interval holds the cycles")
+      ->capture_default_str();
+  command->add_option("--seed", parsed.run.seed, "sampled: of the chunks' places")->capture_default_str();
   command->add_option("--first", parsed.run.first_ray, "first ray")->capture_default_str();
   command->add_option("--rays", parsed.run.rays, "number of rays; 0: to the end")->capture_default_str();
   command->callback([&parsed, command] {
     parsed.run.gives_mode = command->count("--mode") != 0;
     parsed.run.gives_source = command->count("--source") != 0;
+    parsed.run.gives_sampling =
+        command->count("--error") + command->count("--confidence") + command->count("--seed") != 0;
     parsed.exit_code = run_command(parsed.run);
   });
 }
@@ -575,6 +585,8 @@ int run_cli(int argc, const char* const* argv) {
   add_config(app, parsed);
   add_bench(app, parsed);
   add_check(app, parsed);
+  parsed.ladder.command = parsed.run.command;
+  ladder::add_ladder(app, parsed.ladder, parsed.exit_code);
   sweep::add_sweep(app, parsed.sweep, parsed.exit_code);
   report::add_report(app, parsed.report, parsed.exit_code);
   tailor::add_tailor(app, parsed.tailor, parsed.exit_code);

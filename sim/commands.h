@@ -66,10 +66,12 @@ struct RunArgs {
   std::string engine = "cycle";
   std::string json_path;
   std::string waves_path, timeline_path, window;
-  std::string energy_path;                        ///< table of energies; empty: ours
-  bool gives_mode = false, gives_source = false;  ///< on the command line
-  std::uint64_t first_ray = 0, rays = 0;          ///< rays 0: to the end
-  std::string command;                            ///< as it was typed
+  std::string energy_path;                                                ///< table of energies; empty: ours
+  bool gives_mode = false, gives_source = false, gives_sampling = false;  ///< on the command line
+  std::string error = "2%", confidence = "95%";                           ///< sampled
+  std::uint64_t seed = 1;
+  std::uint64_t first_ray = 0, rays = 0;  ///< rays 0: to the end
+  std::string command;                    ///< as it was typed
 };
 
 struct CompareArgs {

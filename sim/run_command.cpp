@@ -9,6 +9,7 @@
 #include "model/base/error.h"
 #include "sim/commands.h"
 #include "sim/config_file.h"
+#include "sim/ladder/percentage.h"
 #include "sim/scene_args.h"
 #include "sim/tailor/tailored_config.h"
 #include "sim/timeline/timeline_file.h"
@@ -26,10 +27,12 @@ void check_engine_heeds(const RunArgs& args) {
     refuse("--waves", "draws none", "give --engine cycle or both");
   if (!args.timeline_path.empty() && args.engine != "cycle")
     refuse("--timeline", "draws none", "give --engine cycle; it takes the same cycles as rtl");
+  if (args.gives_sampling && args.engine != "sampled")
+    refuse("--error, --confidence, --seed", "draws no sample", "leave them out, or give --engine sampled");
   if (args.engine == "cycle") return;
   if (args.gives_mode) refuse("--mode", "has one mode only", "leave it out, or give --engine cycle");
-  if (args.gives_source && args.engine == "estimate")
-    refuse("--source", "counts recorded outcomes", "leave it out, or give --engine cycle");
+  if (args.gives_source && (args.engine == "estimate" || args.engine == "sampled"))
+    refuse("--source", "replays recorded outcomes", "leave it out, or give --engine cycle");
   if (args.gives_source) refuse("--source", "computes all outcomes", "leave it out, or give --engine cycle");
 }
 
@@ -111,6 +114,8 @@ int run_command(const RunArgs& args) {
   plan.config = tailored.config;
   plan.parts = tailored.parts;
   plan.options = run_options(args.unit);
+  plan.sampled = {ladder::parse_percentage("--error", args.error),
+                  ladder::parse_percentage("--confidence", args.confidence), args.seed};
   std::optional<pipeline::Timeline> timeline = watch(args, plan.options);
   if (timeline) plan.options.timeline = &*timeline;
   if (!args.energy_path.empty()) plan.energy = energy::EnergyTable::read(args.energy_path);

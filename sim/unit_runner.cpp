@@ -110,6 +110,22 @@ void run_estimate(const LoadedTrace& trace, const cull::MaskTester& tester, cons
   record.processor_seconds += look_up_seconds;
 }
 
+void run_chunks(const LoadedTrace& trace, const cull::MaskTester& tester, const RunPlan& plan, RunRecord& record) {
+  const ladder::TraceWork work{trace.reader(), trace.bvh(), &trace.masks(), tester, plan.range};
+  const accel::Image image = trace.unit_image(tester.design());
+  run_timed(record, [&] {
+    ladder::Sampled sampled = ladder::run_sampled(work, image, plan.config, plan.sampled);
+    Approximation& a = record.approximation;
+    a.confidence = 100 * plan.sampled.confidence;
+    a.cycles_low = sampled.cycles_low;
+    a.cycles_high = sampled.cycles_high;
+    a.chunks = sampled.chunks;
+    a.simulated_rays = sampled.simulated_rays;
+    a.simulated_cycles = sampled.simulated_cycles;
+    return std::move(sampled.result);
+  });
+}
+
 }  // namespace
 
 unit::Mode parse_mode(const std::string& name) { return parse_choice("--mode", name, kModes); }
@@ -123,10 +139,10 @@ unit::RunOptions run_options(const UnitArgs& args) {
 }
 
 void require_engine(const std::string& engine) {
-  for (const char* known : {"cycle", "reference", "rtl", "both", "estimate"})
+  for (const char* known : {"cycle", "reference", "rtl", "both", "estimate", "sampled"})
     if (engine == known) return;
   throw Error("--engine", fmt::format("there is no engine \"{}\" in this version", engine),
-              "give cycle, reference, rtl, both or estimate");
+              "give cycle, reference, rtl, both, estimate or sampled");
 }
 
 RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
@@ -151,6 +167,8 @@ RunRecord run_plan(const LoadedTrace& trace, const RunPlan& plan) {
     run_timed(record, [&] { return run_rtl(trace, tester, plan); });
   else if (plan.engine == "both")
     run_timed(record, [&] { return run_both(trace, tester, plan, record.twins); });
+  else if (plan.engine == "sampled")
+    run_chunks(trace, tester, plan, record);
   else if (plan.engine == "estimate")
     run_estimate(trace, tester, plan, record);
   else

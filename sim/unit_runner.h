@@ -7,6 +7,7 @@
 #include "model/unit/run.h"
 #include "sim/commands.h"
 #include "sim/energy/energy_table.h"
+#include "sim/ladder/sampled.h"
 #include "sim/loaded_trace.h"
 #include "sim/run_record.h"
 #include "sim/tailor/unit_parts.h"
@@ -23,12 +24,13 @@ unit::RunOptions run_options(const UnitArgs& args);
 void require_engine(const std::string& engine);
 
 struct RunPlan {
-  std::string engine = "cycle";  ///< or "reference", "rtl", "both", "estimate"
+  std::string engine = "cycle";  ///< or "reference", "rtl", "both", "estimate", "sampled"
   pipeline::UnitConfig config;
   unit::RunOptions options;
   traces::RayRange range;
   energy::EnergyTable energy = energy::EnergyTable::standard();
   std::optional<tailor::UnitParts> parts;  ///< that the unit was built with; none: what the trace needs
+  ladder::SampledOptions sampled;
 };
 
 /// Runs and times it; loading and table building are not part of the time.

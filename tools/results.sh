@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes the tables of docs/results.md and docs/numerics.md between their marks, and the plots of docs/plots, from all scenes at hand.
+# Makes the tables of docs/results.md, docs/numerics.md and docs/ladder.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor ladder; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor ladder)
 
 page=docs/results.md
 plots=docs/plots
@@ -447,10 +447,39 @@ tailor() {
   put tailor
 }
 
+# One row: error and price of the engines below `cycle`. Columns of `ladder --markdown`: engine, cycles, error, interval, rays, seconds,
+# cycles/s, times faster.
+ladder_row() {  # LABEL SCENE RAYS OPTION...
+  local label=$1 scene=$2 rays=$3
+  shift 3
+  keep log "$program" record "$scene" -o "$scratch/ladder.ctut" --rays "$rays" --size "$size" --designs none,mask-lut
+  keep rungs "$program" ladder "$scratch/ladder.ctut" --errors 2% --markdown "$@"
+  awk -F' *[|] *' -v label="$label | $rays" -v rays="$(awk '/^rays /{ print $2 }' <("$program" trace info "$scratch/ladder.ctut"))" '
+    $2 == "estimate" { counting = $9 }
+    $2 == "estimate, counted before" { error = $4; faster = $9 }
+    $2 ~ /^sampled/ { sample = $4 " | " $5 " | " $6 " | " $9; held = ($4 + 0 < 0 ? -$4 : $4 + 0) <= substr($5, 3) + 0 ? "yes" : "no" }
+    $2 == "cycle" { cycles = $3; seconds = $7 }
+    END { printf "| %s | %d | %d | %.2f | %s | %s | %s | %s | %s |\n", label, rays, cycles, seconds, error, counting, faster, sample, held }' \
+    "$scratch/rungs"
+}
+
+ladder() {
+  local name path scene rays size=160x90 page=docs/ladder.md
+  {
+    echo "| scene | rays | number | cycles | seconds | estimate: error | times faster, counting | ... counted before | sampled 2%: error | interval | rays simulated | times faster | holds |"
+    echo "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |"
+    for rays in diffuse shadow; do
+      for scene in hair-ball curly-hair straight-hair tilted-quads foliage tetra; do ladder_row "gen:$scene" "gen:$scene" "$rays"; done
+      while read -r name path; do ladder_row "$name" "$(dirname "$index")/$path" "$rays"; done <"$index"
+    done
+  } >"$scratch/ladder"
+  put ladder
+}
+
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | packets | raybox | leaves | together | variants | designs | tables | compression | precision | area | numerics | raydist | tailor) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, packets, raybox, leaves, together, variants, designs, tables, compression, precision, area, numerics, raydist or tailor" >&2; exit 2 ;;
+    culling | auto | paper | packets | raybox | leaves | together | variants | designs | tables | compression | precision | area | numerics | raydist | tailor | ladder) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, packets, raybox, leaves, together, variants, designs, tables, compression, precision, area, numerics, raydist, tailor or ladder" >&2; exit 2 ;;
   esac
 done
 exit "$failed"

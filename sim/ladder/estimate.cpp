@@ -9,6 +9,7 @@
 #include "model/pipeline/parameter.h"
 #include "model/pipeline/work.h"
 #include "sim/ladder/block_sample.h"
+#include "sim/ladder/recorded_counts.h"
 #include "sim/ladder/unit_model.h"
 
 namespace ctu::ladder {
@@ -41,15 +42,6 @@ UnitShape shape_of(const TraceWork& work, const VisitProfile& profile, const pip
   shape.lines_of_leaf = width(counted.leaf);
   shape.lines_of_rows = kEvenly;
   return shape;
-}
-
-/// The whole trace's counts of the design, when the work is the whole trace and it has them.
-const reference::Counts* recorded_counts(const TraceWork& work) {
-  const cull::Design design = cull::event_class(work.tester.design());
-  const traces::DesignCounts* counts = work.reader.manifest().find(design);
-  const bool whole = work.range.first == 0 && work.range.last >= work.reader.rays();
-  const bool same = counts != nullptr && traces::holds_steps(work.reader, design, work.tester.options());
-  return whole && same ? &counts->counts : nullptr;
 }
 
 /// The sums of all phases of a profile, for the whole trace.
@@ -121,15 +113,15 @@ class Sums {
 
   reference::Counts counts() const {
     if (recorded_ != nullptr) return *recorded_;
-    return {.rays = profile_.rays_in_all,
-            .node_visits = scaled(counted_.nodes),
-            .triangle_tests = scaled(counted_.triangles),
-            .boxed_out = scaled(counted_.boxed_out),
-            .leaf_visits = scaled(counted_.leaves),
-            .box_hits = scaled(counted_.box_hits),
-            .culled = scaled(counted_.culled),
-            .uncertain = scaled(counted_.uncertain),
-            .dropped = scaled(counted_.dropped)};
+    const reference::Counts counted{.node_visits = counted_.nodes,
+                                    .triangle_tests = counted_.triangles,
+                                    .boxed_out = counted_.boxed_out,
+                                    .leaf_visits = counted_.leaves,
+                                    .box_hits = counted_.box_hits,
+                                    .culled = counted_.culled,
+                                    .uncertain = counted_.uncertain,
+                                    .dropped = counted_.dropped};
+    return scaled_counts(counted, scale_, profile_.rays_in_all);
   }
 
   /// Busy as long as the stage's entrance is taken.
