@@ -41,7 +41,7 @@ ordered_json quantity(const Results& results, const std::string& column, bool lo
     channel["scale"] = {{"zero", false}};
     return channel;
   }
-  channel["axis"] = {{"format", "~s"}, {"labelOverlap", true}};
+  channel["axis"] = {{"labelExpr", "format(datum.value, '.3~s')"}, {"labelOverlap", true}};
   double least = 0;
   bool has_zero = false;
   const auto values = values_of(results, column);

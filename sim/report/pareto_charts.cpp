@@ -90,10 +90,13 @@ Chart table_sizes(const Results& results, const std::string& id, const std::stri
   chart.spec = new_spec(300);
   chart.spec["transform"] = {{{"filter", fmt::format("isValid(datum['{}'])", field_of(bits))}}};
   chart.spec["mark"] = {{"type", "line"}, {"point", {{"size", 45}}}};
-  chart.spec["encoding"] = {
-      {"x", quantity(results, bits, true)},   {"y", y},
-      {"color", category(results, "scene")},  {"strokeDash", category(results, "design")},
-      {"shape", category(results, "design")}, {"tooltip", tooltip(results, {"scene", "design", bits})}};
+  chart.spec["encoding"] = {{"x", quantity(results, bits, true)},
+                            {"y", y},
+                            {"color", category(results, "scene")},
+                            {"strokeDash", category(results, "design")},
+                            {"detail", {{"field", "r"}, {"type", "nominal"}}},
+                            {"shape", category(results, "design")},
+                            {"tooltip", tooltip(results, {"scene", "design", bits})}};
   chart.spec["encoding"]["tooltip"].push_back(y);
   chart.columns = {"scene", "design", "r", "r_ray", "lut_entries", bits, value, "culled_share"};
   return chart;
@@ -123,9 +126,9 @@ std::vector<Chart> table_size_charts(const Results& results) {
                   "What tables of a size save in intersections",
                   "A size of 0 is the box test alone, or comparators, which keep no table. Timing has no part in it: "
                   "points of one trace and one design lie on each other."));
-  charts.push_back(table_sizes(results, "table-cycles", compared ? "cycles_over_none" : "cycles_per_ray",
-                               "What tables of a size save in cycles",
-                               "The fewest cycles at each size, over everything else that was moved."));
+  charts.push_back(table_sizes(
+      results, "table-cycles", compared ? "cycles_over_none" : "cycles_per_ray", "What tables of a size save in cycles",
+      "The fewest cycles at each size, over everything else that was moved; a line for each R."));
   return charts;
 }
 
