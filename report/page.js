@@ -117,10 +117,13 @@ function changed() {
   clearTimeout(waiting);
   waiting = setTimeout(update, 120);
 }
-async function update() {
+function count() {
   const shown = chosen(null).length;
   document.getElementById('shown').textContent = `${shown} of ${rows.length} runs shown`;
   document.getElementById('all').hidden = shown === rows.length;
+}
+async function update() {
+  count();
   for (const chart of charts) {
     fillTable(chart);
     const view = views.get(chart.id);
@@ -211,8 +214,8 @@ async function begin() {
   addFilters();
   window.onhashchange = showPoint;
   showPoint();
+  count();
   for (const chart of charts) await draw(chart);
-  await update();
   document.documentElement.dataset.drawn = charts.length;
 }
 window.report = { views, chosen };  // for whoever asks in the browser's console

@@ -1,6 +1,7 @@
 #include "sim/report/share_charts.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,9 +31,19 @@ Fold fold_of(const Results& results, const std::string& begin, bool (*counts)(co
 bool is_part_of_stage(const std::string& column) { return !column.ends_with(".stalled"); }
 bool is_part_of_sum(const std::string&) { return true; }
 
-/// The mean of a part over the rows shown.
-ordered_json mean_by(const std::vector<std::string>& fields) {
-  return {{"aggregate", {{{"op", "mean"}, {"field", "part"}, {"as", "mean"}}}}, {"groupby", fields}};
+/// Means of the columns over the rows shown, in each group, one below the other as `key` and `mean`. Means come first:
+/// then no expression is asked more often than there are groups.
+ordered_json folded_means(const Fold& fold, const std::vector<std::string>& groups) {
+  ordered_json means = ordered_json::array();
+  for (const ordered_json& field : fold.fields) means.push_back({{"op", "mean"}, {"field", field}, {"as", field}});
+  return ordered_json::array({{{"aggregate", means}, {"groupby", groups}},
+                              {{"fold", fold.fields}, {"as", {"key", "mean"}}},
+                              {{"filter", "isValid(datum.mean)"}}});
+}
+
+/// A column made by an expression.
+ordered_json calculated(const std::string& expression, const char* name) {
+  return {{"calculate", expression}, {"as", name}};
 }
 
 /// Bars of the means, one behind the other.
@@ -85,13 +96,11 @@ Chart stage_chart(const Fold& fold) {
   for (const std::string& column : fold.columns)
     if (column.ends_with(".busy")) stages.push_back(column.substr(6, column.size() - 6 - 5));
   chart.spec = new_spec(height_of(stages.size()));
-  chart.spec["transform"] = {
-      {{"fold", fold.fields}, {"as", {"key", "part"}}},
-      {{"filter", "isValid(datum.part)"}},
-      {{"calculate", "split(datum.key, '|')[1]"}, {"as", "stage"}},
-      {{"calculate", "split(datum.key, '|')[3] || split(datum.key, '|')[2]"}, {"as", "what"}},
-      mean_by({"stage", "what"}),
-      {{"calculate", fmt::format("indexof({}, datum.what)", color["domain"].dump())}, {"as", "rank"}}};
+  ordered_json transform = folded_means(fold, {});
+  transform.push_back(calculated("split(datum.key, '|')[1]", "stage"));
+  transform.push_back(calculated("split(datum.key, '|')[3] || split(datum.key, '|')[2]", "what"));
+  transform.push_back(calculated(fmt::format("indexof({}, datum.what)", color["domain"].dump()), "rank"));
+  chart.spec["transform"] = std::move(transform);
   ordered_json y = word("stage", "");
   y["title"] = nullptr;
   y["sort"] = stages;
@@ -135,11 +144,10 @@ Chart parts_chart(const Results& results, const Parts& parts, const Fold& fold) 
   const std::string begin = parts.begin;
   const auto word_number = std::count(begin.begin(), begin.end(), '.');
   chart.spec = new_spec(height_of(values_of(results, "scene").size() * values_of(results, "design").size()));
-  chart.spec["transform"] = {{{"fold", fold.fields}, {"as", {"key", "part"}}},
-                             {{"filter", "isValid(datum.part)"}},
-                             {{"calculate", fmt::format("split(datum.key, '|')[{}]", word_number)}, {"as", "place"}},
-                             {{"calculate", "datum.scene + ', ' + datum.design"}, {"as", "unit"}},
-                             mean_by({"unit", "place"})};
+  ordered_json transform = folded_means(fold, {"scene", "design"});
+  transform.push_back(calculated(fmt::format("split(datum.key, '|')[{}]", word_number), "place"));
+  transform.push_back(calculated("datum.scene + ', ' + datum.design", "unit"));
+  chart.spec["transform"] = std::move(transform);
   ordered_json places = ordered_json::array();
   for (const std::string& column : fold.columns) places.push_back(column.substr(begin.size()));
   ordered_json y = word("unit", "");

@@ -22,7 +22,7 @@ const browser = await chromium.launchPersistentContext(profile, {
 
 const complaints = [];
 const page = browser.pages()[0] ?? await browser.newPage();
-page.setDefaultTimeout(20_000);
+page.setDefaultTimeout(60_000);
 page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) complaints.push(message.text()); });
 page.on('pageerror', (error) => complaints.push(String(error)));
 page.on('request', (request) => {

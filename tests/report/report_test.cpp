@@ -85,7 +85,7 @@ TEST_F(ReportOfRuns, shows_shares_of_stages_that_add_up_to_all_cycles) {
   const auto stages =
       std::find_if(charts.begin(), charts.end(), [](const report::Chart& chart) { return chart.id == "stages"; });
   ASSERT_NE(stages, charts.end());
-  const ordered_json& fields = stages->spec["transform"][0]["fold"];
+  const ordered_json& fields = stages->spec["transform"][1]["fold"];
   for (const ordered_json& row : results.rows) {
     std::map<std::string, double> sum;
     for (const ordered_json& field : fields) {
