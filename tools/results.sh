@@ -431,7 +431,7 @@ tailored() {  # LABEL SCENE OPTION...
   local label=$1 scene=$2 file
   shift 2
   file=$(awk -v name="$scene" '$1 == name { print $2 }' "$index")
-  echo "**$label** (\`record $scene $*\`)"
+  echo "**$label** (\`record $scene${*:+ $*}\`)"
   echo
   keep log "$program" record "${file:+$(dirname "$index")/}${file:-$scene}" -o "$scratch/tailored.ctut" --rays diffuse --size 240x135 "$@"
   keep row "$program" tailor "$scratch/tailored.ctut" --slowdown 1% --build-rtl --rtl-rays 1000 --markdown -o "$scratch/unit.toml"

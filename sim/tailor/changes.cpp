@@ -30,11 +30,12 @@ double gain_of(const Trial& now, const Trial& other) {
 }
 
 std::string reason_of(const Change& change, bool design) {
-  if (design && change.after == "none")
-    return fmt::format("culling is not needed to be fast enough: with {} these traces would take {:+.2f} % cycles",
-                       change.before, -100 * change.gain);
-  if (change.gain <= 0) return "more of it is no faster on any of these traces";
-  return fmt::format("more of it would save {:.2f} % of the cycles at most", 100 * change.gain);
+  if (design)
+    return fmt::format("{}with {} these traces would take {:+.2f} % cycles",
+                       change.after == "none" ? "culling is not needed to be fast enough: " : "", change.before,
+                       -100 * change.gain);
+  if (change.gain <= 0) return "putting it back is no faster on any of these traces";
+  return fmt::format("putting it back would save {:.2f} % of the cycles at most", 100 * change.gain);
 }
 
 /// Whether a unit of this design has anything that the key is about.

@@ -19,7 +19,10 @@ GateCheck run_gates(const sim::LoadedTrace& trace, const pipeline::UnitConfig& c
                     const std::string& folder) {
   const cull::MaskTester tester = trace.tester(config.mask_test.design);
   const accel::Image image = trace.unit_image(config.mask_test.design);
-  const traces::RayRange range = trace.range(0, rays);
+  // From the middle, where a picture has its scene; packets must not be cut.
+  const std::uint64_t all = trace.reader().rays();
+  const bool from_begin = rays >= all || trace.reader().manifest().packets.any();
+  const traces::RayRange range = trace.range(from_begin ? 0 : (all - rays) / 2, rays);
   traces::TraceFeed model_feed(trace.reader(), range), gate_feed(trace.reader(), range);
   const pipeline::Work model_work{image, tester, model_feed}, gate_work{image, tester, gate_feed};
   const auto unit = cosim::make_rtl_unit(config, gate_work, folder);

@@ -21,7 +21,7 @@ double cycles_ratio(const sim::RunRecord& before, const sim::RunRecord& after);
 /// The largest of the traces' ratios of cycles.
 double slowest_ratio(const std::vector<sim::RunRecord>& before, const std::vector<sim::RunRecord>& after);
 
-/// A trace's first rays in lock step.
+/// Rays from a trace's middle in lock step.
 struct GateCheck {
   std::string trace;
   std::uint64_t rays = 0, cycles = 0, handshakes = 0, wrong_hits = 0;

@@ -23,8 +23,9 @@ void add_tailor(CLI::App& app, TailorArgs& args, int& exit_code) {
       ->capture_default_str();
   command->add_option("--seed", args.seed, "of the orders behind the first two")->capture_default_str();
   command
-      ->add_option("--rtl-rays", args.gate_rays,
-                   "first rays of each trace that the unit in gates runs in lock step with the model; 0: none")
+      ->add_option(
+          "--rtl-rays", args.gate_rays,
+          "rays from the middle of each trace that the unit in gates runs in lock step with the model; 0: none")
       ->capture_default_str();
   command->add_flag("--build-rtl", args.build_rtl,
                     "where no build of the unit in gates fits, make one with verilator and cmake");
