@@ -5,7 +5,7 @@
 // Parameters fix its structure, straps (inputs that keep their value while it runs) the rest. What a design or a scene
 // does not need is not there: DESIGN none has neither cell_locate nor mask_test, HAS_SPILLS 0 no way from the stack to
 // memory, TABLE_CACHE 0 no table_fetch; with TABLE_CACHE 1 all tables lie in memory and none is on chip. PRIMITIVE_BOXES 0
-// has no primitive_cull and SPHERES 0 no sphere_test, nor what only these read.
+// has no primitive_cull, SPHERES 0 no sphere_test and PACKETS 0 no packet_cull, nor what only these read.
 //
 // The register files of the contexts lie between the stages: rays, best hits, times of the slab test, and keys or touched
 // cells. Nodes, leaves and stacks by context are in node_fetch, leaf_fetch and traversal_stack.
@@ -35,6 +35,9 @@ module ctu_unit #(
     parameter bit PRIMITIVE_BOXES = 1'b0,   // the image has them
     parameter bit SPHERES = 1'b0,           // the image has some
     parameter int CULL_UNITS = 1,           // boxes of primitives compared at once
+    parameter int PACKETS = 0,              // of rays, under way at once at most; 0: rays travel alone
+    parameter int PACKET_ENTRIES = 16,      // PACKETS: of a packet at most, 1 .. 16
+    parameter int MIN_PACKET_INTERVAL = 4,  // PACKETS
     parameter int STACK_ENTRIES = 16,       // of a context on chip, a power of two
     parameter bit HAS_SPILLS = 1'b1,
     parameter int MAX_SETS = 128,           // of each cache
@@ -51,6 +54,7 @@ module ctu_unit #(
     parameter int MASK_SECOND_LATENCY = 1,  // dedup
     parameter int SORT_LATENCY = 3,
     parameter int CULL_LATENCY = 10,        // PRIMITIVE_BOXES
+    parameter int PACKET_LATENCY = 12,      // PACKETS
     parameter int TRIANGLE_LATENCY = 45,
     parameter int SPHERE_LATENCY = 89,      // SPHERES
     parameter int HIT_LATENCY = 2,
@@ -59,7 +63,8 @@ module ctu_unit #(
     localparam int WAY_BITS = $clog2(MAX_WAYS + 1),
     localparam int MSHR_BITS = $clog2(MAX_MSHRS + 1),
     localparam int HIT_LATENCY_BITS = $clog2(MAX_HIT_LATENCY + 1),
-    localparam int CLIENTS = TABLE_CACHE ? 4 : HAS_SPILLS ? 3 : 2
+    localparam int CLIENTS = TABLE_CACHE ? 4 : HAS_SPILLS ? 3 : 2,
+    localparam int PACKET_BITS = PACKETS <= 2 ? 1 : $clog2(PACKETS)
 ) (
     input logic clk_i,
     input logic rst_i,
@@ -67,6 +72,9 @@ module ctu_unit #(
     // Straps.
     input logic [         SLOT_BITS:0] contexts_i,           // in use
     input logic [                 6:0] ray_interval_i,
+    input logic [       PACKET_BITS:0] packets_i,            // in use
+    input logic [                 4:0] packet_entries_i,     // of a packet at most
+    input logic [                 6:0] packet_interval_i,
     input logic                        round_robin_i,
     input logic [        SET_BITS-1:0] node_set_mask_i,
     input logic [        WAY_BITS-1:0] node_ways_i,
@@ -105,6 +113,7 @@ module ctu_unit #(
     input  logic [         31:0] ray_tmin_i,
     input  logic [         31:0] ray_tmax_i,
     input  logic                 ray_any_hit_i,
+    input  logic                 ray_closes_i,      // with PACKETS: it is the last one of its packet
     output logic                 ray_take_o,
     output logic [SLOT_BITS-1:0] ray_slot_o,
 
@@ -161,6 +170,8 @@ module ctu_unit #(
   localparam int FETCHED_BITS = TABLE_CACHE ? `CTU_FETCHED_BITS(DESIGN, R, ENTRIES, ROWS) : 1;
 
   localparam int REF = SLOT_BITS + 32;
+  localparam bit HAS_PACKETS = PACKETS != 0;
+  localparam int NODE_REF = HAS_PACKETS ? REF + 1 : REF;  // with whether it is a packet's
   localparam int NODE = SLOT_BITS + `CTU_NODE_FIELDS;
   localparam int TESTED = SLOT_BITS + `CTU_TESTED_FIELDS;
   localparam int REQUEST = ADDRESS_BITS + `CTU_ID_BITS + 1;  // without data
@@ -193,10 +204,9 @@ module ctu_unit #(
   assign push[NUMBER] = 1'b0; \
   assign pop[NUMBER] = 1'b0;
 
-  `CTU_LINK(ray_to_scheduler, `CTU_RAY_TO_SCHEDULER, REF)
   `CTU_LINK(ray_to_result, `CTU_RAY_TO_RESULT, SLOT_BITS)
   `CTU_LINK(result_to_ray, `CTU_RESULT_TO_RAY, SLOT_BITS)
-  `CTU_LINK(scheduler_to_node, `CTU_SCHEDULER_TO_NODE, REF)
+  `CTU_LINK(scheduler_to_node, `CTU_SCHEDULER_TO_NODE, NODE_REF)
   `CTU_LINK(scheduler_to_leaf, `CTU_SCHEDULER_TO_LEAF, REF)
   `CTU_LINK(node_to_box, `CTU_NODE_TO_BOX, REF)
   `CTU_LINK(sort_to_stack, `CTU_SORT_TO_STACK, NODE)
@@ -209,8 +219,8 @@ module ctu_unit #(
   `CTU_LINK(memory_to_leaf, `CTU_MEMORY_TO_LEAF, RESPONSE)
   // Rays by context. What the host gives is written as ray_queue takes a ray, what it computes as the ray leaves it. Read
   // by box_test, cell_locate, triangle_test and hit_update; and where they are there by primitive_cull and sphere_test,
-  // the two leaf readers, first one lowest, which also want the whole direction.
-  logic [SLOT_BITS-1:0] boxes_slot, box_slot, locate_slot, triangle_ray_slot, hit_slot;
+  // the two leaf readers, first one lowest, which also want the whole direction; and by packet_cull above these.
+  logic [SLOT_BITS-1:0] boxes_slot, box_slot, locate_slot, triangle_ray_slot, hit_slot, join_slot;
   localparam int LEAF_READERS = 32'(PRIMITIVE_BOXES) + 32'(SPHERES);
   localparam int LEAF_FILES = LEAF_READERS == 0 ? 1 : LEAF_READERS;  // no vector is empty
   localparam int SPHERE_READER = 32'(PRIMITIVE_BOXES);
@@ -229,22 +239,25 @@ module ctu_unit #(
   logic [1:0] ray_kx, ray_ky, ray_kz;
   logic [2:0] ray_zero_axes, ray_negative_axes;
   logic [31:0] ray_direction_z;
+  localparam int RAY_READS = 4 + LEAF_FILES + 32'(HAS_PACKETS);
   logic [RAY-1:0] box_ray, locate_ray, triangle_ray, hit_ray;
   logic [LEAF_FILES*RAY-1:0] leaf_ray;
+  logic [RAY_READS*RAY-1:0] rays_read;
   assign ray_direction_z = ray_direction_i[32*ray_kz+:32];
   context_file #(
       .WIDTH(RAY),
       .SLOT_BITS(SLOT_BITS),
-      .READS(4 + LEAF_FILES)
+      .READS(RAY_READS)
   ) rays (
       .clk_i,
       .write_i(ray_take_o),
       .write_slot_i(ray_slot_o),
       .write_data_i({ray_any_hit_i, ray_negative_axes, ray_zero_axes, ray_kz, ray_ky, ray_kx, ray_direction_z,
                      ray_tmin_i, ray_origin_i}),
-      .read_slot_i({leaf_reader_slot, hit_slot, triangle_ray_slot, locate_slot, box_slot}),
-      .read_data_o({leaf_ray, hit_ray, triangle_ray, locate_ray, box_ray})
+      .read_slot_i((RAY_READS*SLOT_BITS)'({join_slot, leaf_reader_slot, hit_slot, triangle_ray_slot, locate_slot, box_slot})),
+      .read_data_o(rays_read)
   );
+  assign {leaf_ray, hit_ray, triangle_ray, locate_ray, box_ray} = rays_read[0+:(4+LEAF_FILES)*RAY];
 
   localparam int RCP_DOWN = 0;
   localparam int RCP_UP = 96;
@@ -255,39 +268,46 @@ module ctu_unit #(
   logic [SLOT_BITS-1:0] setup_slot;
   logic [95:0] setup_rcp_down, setup_rcp_up;
   logic [31:0] setup_sx, setup_sy;
+  localparam int SETUP_READS = 2 + 32'(HAS_PACKETS);
   logic [SETUP-1:0] box_setup, triangle_setup;
+  logic [SETUP_READS*SETUP-1:0] setups_read;
   context_file #(
       .WIDTH(SETUP),
       .SLOT_BITS(SLOT_BITS),
-      .READS(2)
+      .READS(SETUP_READS)
   ) ray_setups (
       .clk_i,
       .write_i(setup_write),
       .write_slot_i(setup_slot),
       .write_data_i({setup_sy, setup_sx, setup_rcp_up, setup_rcp_down}),
-      .read_slot_i({triangle_ray_slot, box_slot}),
-      .read_data_o({triangle_setup, box_setup})
+      .read_slot_i((SETUP_READS*SLOT_BITS)'({join_slot, triangle_ray_slot, box_slot})),
+      .read_data_o(setups_read)
   );
+  assign {triangle_setup, box_setup} = setups_read[0+:2*SETUP];
 
   // Best hits by context, {t, u, v, primitive}: written by ray_queue and hit_update; read by box_test, triangle_test,
-  // hit_update, traversal_stack, the leaf readers and for the host.
+  // hit_update, traversal_stack, the leaf readers, packet_cull and for the host.
   logic best_write;
   logic [SLOT_BITS-1:0] triangle_best_slot, stack_slot;
   logic [127:0] best_written, box_best, triangle_best, hit_best, stack_best;
   logic [LEAF_FILES*128-1:0] leaf_best;
+  localparam int BEST_READS = 5 + LEAF_FILES + 32'(HAS_PACKETS);
+  logic [BEST_READS*128-1:0] bests_read;
   context_file #(
       .WIDTH(128),
       .SLOT_BITS(SLOT_BITS),
       .WRITES(2),
-      .READS(5 + LEAF_FILES)
+      .READS(BEST_READS)
   ) best_hits (
       .clk_i,
       .write_i({best_write, ray_take_o}),
       .write_slot_i({hit_slot, ray_slot_o}),
       .write_data_i({best_written, ray_tmax_i, 64'd0, 32'hffffffff}),
-      .read_slot_i({leaf_reader_slot, return_slot_o, stack_slot, hit_slot, triangle_best_slot, box_slot}),
-      .read_data_o({leaf_best, return_hit_o, stack_best, hit_best, triangle_best, box_best})
+      .read_slot_i((BEST_READS*SLOT_BITS)'({join_slot, leaf_reader_slot, return_slot_o, stack_slot, hit_slot,
+                                            triangle_best_slot, box_slot})),
+      .read_data_o(bests_read)
   );
+  assign {leaf_best, return_hit_o, stack_best, hit_best, triangle_best, box_best} = bests_read[0+:(5+LEAF_FILES)*128];
 
   // Entry times of the four lanes by context: written by box_test; read by child_sort and traversal_stack. The other
   // times of the slab test are there only for cell_locate, t1 for traversal_stack where primitive_cull wants it.
@@ -308,10 +328,14 @@ module ctu_unit #(
       .read_data_o({locate_t0, stack_t0, sort_t0})
   );
 
+  logic queued_ready, queued_push, joining_ready, joining_push;
+  logic [REF-1:0] queued;
+  logic [SLOT_BITS+1:0] joining;
   ray_queue #(
       .SLOT_BITS(SLOT_BITS),
       .LATENCY(RAY_SETUP_LATENCY),
-      .MIN_INTERVAL(MIN_RAY_INTERVAL)
+      .MIN_INTERVAL(MIN_RAY_INTERVAL),
+      .PACKETS(HAS_PACKETS)
   ) ray_queue_stage (
       .clk_i,
       .rst_i,
@@ -322,6 +346,7 @@ module ctu_unit #(
       .ray_direction_i,
       .ray_tmin_i,
       .ray_tmax_i,
+      .ray_closes_i,
       .ray_take_o,
       .ray_slot_o,
       .ray_zero_axes_o(ray_zero_axes),
@@ -332,12 +357,15 @@ module ctu_unit #(
       .freed_valid_i(valid[`CTU_RESULT_TO_RAY]),
       .freed_data_i(result_to_ray_out),
       .freed_pop_o(pop[`CTU_RESULT_TO_RAY]),
-      .to_scheduler_ready_i(ready[`CTU_RAY_TO_SCHEDULER]),
-      .to_scheduler_push_o(push[`CTU_RAY_TO_SCHEDULER]),
-      .to_scheduler_data_o(ray_to_scheduler_in),
+      .to_scheduler_ready_i(queued_ready),
+      .to_scheduler_push_o(queued_push),
+      .to_scheduler_data_o(queued),
       .to_result_ready_i(ready[`CTU_RAY_TO_RESULT]),
       .to_result_push_o(push[`CTU_RAY_TO_RESULT]),
       .to_result_data_o(ray_to_result_in),
+      .to_packets_ready_i(joining_ready),
+      .to_packets_push_o(joining_push),
+      .to_packets_data_o(joining),
       .setup_write_o(setup_write),
       .setup_slot_o(setup_slot),
       .setup_rcp_down_o(setup_rcp_down),
@@ -347,8 +375,18 @@ module ctu_unit #(
       .activity_o(activity_o[4*`CTU_RAY_QUEUE+:4])
   );
 
+  // To the scheduler come rays, or packets' nodes; the links of packet_cull are there with it.
+  logic begins_valid, begins_pop, packet_node_ready, packet_node_push, starts_valid, starts_pop;
+  logic released_ready, released_push;
+  logic [REF-1:0] begins;
+  logic [SLOT_BITS+PACKET_BITS:0] starts;
+  logic [PACKET_BITS-1:0] released, stack_packet;
+  logic [64*PACKET_ENTRIES-1:0] packet_entries;
+  logic [4:0] packet_count;
+  logic [SLOT_BITS-1:0] packet_boxes_slot, packet_children_slot;
   scheduler #(
-      .SLOT_BITS(SLOT_BITS)
+      .SLOT_BITS(SLOT_BITS),
+      .PACKETS(HAS_PACKETS)
   ) scheduler_stage (
       .clk_i,
       .rst_i,
@@ -356,9 +394,9 @@ module ctu_unit #(
       .from_stack_valid_i(valid[`CTU_STACK_TO_SCHEDULER]),
       .from_stack_data_i(stack_to_scheduler_out),
       .from_stack_pop_o(pop[`CTU_STACK_TO_SCHEDULER]),
-      .from_rays_valid_i(valid[`CTU_RAY_TO_SCHEDULER]),
-      .from_rays_data_i(ray_to_scheduler_out),
-      .from_rays_pop_o(pop[`CTU_RAY_TO_SCHEDULER]),
+      .from_rays_valid_i(begins_valid),
+      .from_rays_data_i(begins),
+      .from_rays_pop_o(begins_pop),
       .to_node_fetch_ready_i(ready[`CTU_SCHEDULER_TO_NODE]),
       .to_node_fetch_push_o(push[`CTU_SCHEDULER_TO_NODE]),
       .to_node_fetch_data_o(scheduler_to_node_in),
@@ -368,9 +406,11 @@ module ctu_unit #(
       .activity_o(activity_o[4*`CTU_SCHEDULER+:4])
   );
 
-  // Readers of a node, first one lowest: box_test, traversal_stack, cell_locate, mask_test; table_fetch, of indices.
+  // Readers of a node, first one lowest: box_test, traversal_stack, cell_locate, mask_test; table_fetch, of indices; above
+  // all packet_cull, of boxes and of children.
   localparam bit FETCHES_BY_INDEX = TABLE_CACHE && ENTRIES > 0;
-  localparam int NODE_READERS = FETCHES_BY_INDEX ? 5 : HAS_MASK_TEST ? 4 : 2;
+  localparam int RAY_READERS = FETCHES_BY_INDEX ? 5 : HAS_MASK_TEST ? 4 : 2;  // of rays' nodes
+  localparam int NODE_READERS = HAS_PACKETS ? RAY_READERS + 2 : RAY_READERS;
   logic [NODE_READERS*SLOT_BITS-1:0] node_slot;
   logic [NODE_READERS*BOXES_BITS-1:0] node_boxes;
   logic [NODE_READERS*128-1:0] node_children;
@@ -389,7 +429,8 @@ module ctu_unit #(
       .MASK_BITS(MASK_BITS),
       .MAX_STRIDE(NODE_BYTES),
       .BOX_BITS(BOX_BITS),
-      .READ_PORTS(NODE_READERS)
+      .READ_PORTS(NODE_READERS),
+      .PACKETS(HAS_PACKETS)
   ) node_fetch_stage (
       .clk_i,
       .rst_i,
@@ -415,6 +456,8 @@ module ctu_unit #(
       .done_ready_i(ready[`CTU_NODE_TO_BOX]),
       .done_push_o(push[`CTU_NODE_TO_BOX]),
       .done_data_o(node_to_box_in),
+      .packets_ready_i(packet_node_ready),
+      .packets_push_o(packet_node_push),
       .activity_o(activity_o[4*`CTU_NODE_FETCH+:4]),
       .node_slot_i(node_slot),
       .node_boxes_o(node_boxes),
@@ -422,6 +465,112 @@ module ctu_unit #(
       .node_masks_o(node_masks),
       .node_full_o(node_full)
   );
+
+  generate
+    if (HAS_PACKETS) begin : g_packets
+      `CTU_LINK(ray_to_packet, `CTU_RAY_TO_PACKET, SLOT_BITS + 2)
+      `CTU_LINK(packet_to_scheduler, `CTU_PACKET_TO_SCHEDULER, REF)
+      `CTU_LINK(node_to_packet, `CTU_NODE_TO_PACKET, REF)
+      `CTU_LINK(packet_to_stack, `CTU_PACKET_TO_STACK, SLOT_BITS + PACKET_BITS + 1)
+      `CTU_LINK(stack_to_packet, `CTU_STACK_TO_PACKET, PACKET_BITS)
+      `CTU_NO_LINK(`CTU_RAY_TO_SCHEDULER)
+      assign joining_ready = ready[`CTU_RAY_TO_PACKET];
+      assign push[`CTU_RAY_TO_PACKET] = joining_push;
+      assign ray_to_packet_in = joining;
+      assign queued_ready = 1'b0;
+      assign begins_valid = valid[`CTU_PACKET_TO_SCHEDULER];
+      assign begins = packet_to_scheduler_out;
+      assign pop[`CTU_PACKET_TO_SCHEDULER] = begins_pop;
+      assign packet_node_ready = ready[`CTU_NODE_TO_PACKET];
+      assign push[`CTU_NODE_TO_PACKET] = packet_node_push;
+      assign node_to_packet_in = node_to_box_in;
+      assign starts_valid = valid[`CTU_PACKET_TO_STACK];
+      assign starts = packet_to_stack_out;
+      assign pop[`CTU_PACKET_TO_STACK] = starts_pop;
+      assign released_ready = ready[`CTU_STACK_TO_PACKET];
+      assign push[`CTU_STACK_TO_PACKET] = released_push;
+      assign stack_to_packet_in = released;
+
+      localparam int BOXES_READER = RAY_READERS;
+      localparam int CHILDREN_READER = RAY_READERS + 1;
+      assign node_slot[RAY_READERS*SLOT_BITS+:2*SLOT_BITS] = {packet_children_slot, packet_boxes_slot};
+      logic [3:0] packet_empty;
+      for (genvar lane = 0; lane < 4; lane++) begin : g_empty
+        assign packet_empty[lane] = node_children[128*BOXES_READER+32*lane+:32] == 32'hffffffff;
+      end
+      packet_cull #(
+          .SLOT_BITS(SLOT_BITS),
+          .PACKETS(PACKETS),
+          .ENTRIES(PACKET_ENTRIES),
+          .LATENCY(PACKET_LATENCY),
+          .MIN_INTERVAL(MIN_PACKET_INTERVAL),
+          .BOX_BITS(BOX_BITS),
+          .DECODE_LATENCY(DECODE_LATENCY)
+      ) packet_cull_stage (
+          .clk_i,
+          .rst_i,
+          .packets_i,
+          .most_entries_i(packet_entries_i),
+          .interval_i(packet_interval_i),
+          .rays_valid_i(valid[`CTU_RAY_TO_PACKET]),
+          .rays_data_i(ray_to_packet_out),
+          .rays_pop_o(pop[`CTU_RAY_TO_PACKET]),
+          .nodes_valid_i(valid[`CTU_NODE_TO_PACKET]),
+          .nodes_data_i(node_to_packet_out),
+          .nodes_pop_o(pop[`CTU_NODE_TO_PACKET]),
+          .released_valid_i(valid[`CTU_STACK_TO_PACKET]),
+          .released_data_i(stack_to_packet_out),
+          .released_pop_o(pop[`CTU_STACK_TO_PACKET]),
+          .to_scheduler_ready_i(ready[`CTU_PACKET_TO_SCHEDULER]),
+          .to_scheduler_push_o(push[`CTU_PACKET_TO_SCHEDULER]),
+          .to_scheduler_data_o(packet_to_scheduler_in),
+          .starts_ready_i(ready[`CTU_PACKET_TO_STACK]),
+          .starts_push_o(push[`CTU_PACKET_TO_STACK]),
+          .starts_data_o(packet_to_stack_in),
+          .ray_slot_o(join_slot),
+          .ray_origin_i(rays_read[(RAY_READS-1)*RAY+ORIGIN+:96]),
+          .ray_rcp_down_i(setups_read[(SETUP_READS-1)*SETUP+RCP_DOWN+:96]),
+          .ray_rcp_up_i(setups_read[(SETUP_READS-1)*SETUP+RCP_UP+:96]),
+          .ray_zero_axes_i(rays_read[(RAY_READS-1)*RAY+ZERO_AXES+:3]),
+          .ray_negative_axes_i(rays_read[(RAY_READS-1)*RAY+NEGATIVE_AXES+:3]),
+          .ray_tmin_i(rays_read[(RAY_READS-1)*RAY+TMIN+:32]),
+          .ray_tmax_i(bests_read[(BEST_READS-1)*128+96+:32]),
+          .boxes_slot_o(packet_boxes_slot),
+          .boxes_i(node_boxes[BOXES_BITS*BOXES_READER+:BOXES_BITS]),
+          .empty_i(packet_empty),
+          .children_slot_o(packet_children_slot),
+          .children_i(node_children[128*CHILDREN_READER+:128]),
+          .entries_packet_i(stack_packet),
+          .entries_o(packet_entries),
+          .count_packet_i(starts[1+:PACKET_BITS]),
+          .count_o(packet_count),
+          .activity_o(activity_o[4*`CTU_PACKET_CULL+:4])
+      );
+    end else begin : g_no_packets
+      `CTU_LINK(ray_to_scheduler, `CTU_RAY_TO_SCHEDULER, REF)
+      `CTU_NO_LINK(`CTU_RAY_TO_PACKET)
+      `CTU_NO_LINK(`CTU_PACKET_TO_SCHEDULER)
+      `CTU_NO_LINK(`CTU_NODE_TO_PACKET)
+      `CTU_NO_LINK(`CTU_PACKET_TO_STACK)
+      `CTU_NO_LINK(`CTU_STACK_TO_PACKET)
+      assign queued_ready = ready[`CTU_RAY_TO_SCHEDULER];
+      assign push[`CTU_RAY_TO_SCHEDULER] = queued_push;
+      assign ray_to_scheduler_in = queued;
+      assign begins_valid = valid[`CTU_RAY_TO_SCHEDULER];
+      assign begins = ray_to_scheduler_out;
+      assign pop[`CTU_RAY_TO_SCHEDULER] = begins_pop;
+      assign joining_ready = 1'b0;
+      assign packet_node_ready = 1'b0;
+      assign starts_valid = 1'b0;
+      assign starts = '0;
+      assign released_ready = 1'b0;
+      assign packet_entries = '0;
+      assign packet_count = '0;
+      assign join_slot = '0;
+      assign activity_o[4*`CTU_PACKET_CULL+:4] = `CTU_IDLE;
+      wire unused_packets = &{1'b0, packets_i, packet_entries_i, packet_interval_i};
+    end
+  endgenerate
 
   logic tested_push, tested_ready, decoded_write;
   logic [767:0] decoded_written;
@@ -808,7 +957,9 @@ module ctu_unit #(
       .ADDRESS_BITS(ADDRESS_BITS),
       .LINE_BYTES(LINE_BYTES),
       .HAS_SPILLS(HAS_SPILLS),
-      .EXITS(PRIMITIVE_BOXES)
+      .EXITS(PRIMITIVE_BOXES),
+      .PACKETS(PACKETS),
+      .PACKET_ENTRIES(PACKET_ENTRIES)
   ) traversal_stack_stage (
       .clk_i,
       .rst_i,
@@ -835,6 +986,15 @@ module ctu_unit #(
       .spills_ready_i(spills_ready),
       .spills_push_o(spills_push),
       .spills_data_o(spills),
+      .starts_valid_i(starts_valid),
+      .starts_data_i(starts),
+      .starts_pop_o(starts_pop),
+      .released_ready_i(released_ready),
+      .released_push_o(released_push),
+      .released_data_o(released),
+      .packet_count_i(packet_count),
+      .packet_o(stack_packet),
+      .packet_entries_i(packet_entries),
       .slot_o(stack_slot),
       .children_i(node_children[128+:128]),
       .t0_i(stack_t0),

@@ -21,6 +21,8 @@ module node_fetch #(
     parameter int MAX_STRIDE = 116,    // bytes
     parameter int BOX_BITS = 32,       // of a coordinate in the image: 32, or 16, 12, 8
     parameter int READ_PORTS = 1,      // stages that read nodes
+    parameter bit PACKETS = 1'b0,      // some nodes are packets'
+    localparam int OF_PACKET = PACKETS ? 1 : 0,
     localparam int BOXES_BITS = BOX_BITS == 32 ? 768 : 128 + 24 * BOX_BITS,
     localparam int SET_BITS = MAX_SETS == 1 ? 1 : $clog2(MAX_SETS),
     localparam int LANE_BITS = MASK_BITS == 0 ? 1 : MASK_BITS
@@ -42,7 +44,7 @@ module node_fetch #(
 
     // Links.
     input  logic                    requests_valid_i,
-    input  logic [  SLOT_BITS+31:0] requests_data_i,   // ref
+    input  logic [SLOT_BITS+31+OF_PACKET:0] requests_data_i,  // ref; with PACKETS whether it is a packet's above
     output logic                    requests_pop_o,
     input  logic                    fills_valid_i,
     input  logic [8*LINE_BYTES+7:0] fills_data_i,      // response
@@ -52,7 +54,9 @@ module node_fetch #(
     output logic [ADDRESS_BITS+8:0] misses_data_o,     // request without data
     input  logic                    done_ready_i,
     output logic                    done_push_o,
-    output logic [  SLOT_BITS+31:0] done_data_o,       // ref
+    output logic [  SLOT_BITS+31:0] done_data_o,       // ref; for both links
+    input  logic                    packets_ready_i,   // with PACKETS: the link of packets' nodes
+    output logic                    packets_push_o,
     output logic [             3:0] activity_o,
 
     // The nodes of contexts, a slot for each port.
@@ -80,6 +84,7 @@ module node_fetch #(
   wire [ADDRESS_BITS-1:0] last = first + ADDRESS_BITS'(stride) - ADDRESS_BITS'(1);
 
   logic [SLOT_BITS-1:0] done_slot;
+  logic leaves, leaving_ready;
   logic [32*NODE_WORDS-1:0] node;
   span_fetch #(
       .SLOT_BITS(SLOT_BITS),
@@ -112,8 +117,8 @@ module node_fetch #(
       .misses_ready_i,
       .misses_push_o,
       .misses_data_o,
-      .done_ready_i,
-      .done_push_o,
+      .done_ready_i(leaving_ready),
+      .done_push_o(leaves),
       .done_slot_o(done_slot),
       .activity_o,
       .read_slot_i(done_slot),
@@ -125,6 +130,22 @@ module node_fetch #(
   always_ff @(posedge clk_i) if (requests_pop_o) references_q[requests_data_i[32+:SLOT_BITS]] <= reference;
   wire [31:0] done_reference = references_q[done_slot];
   assign done_data_o = {done_slot, done_reference};
+  generate
+    if (PACKETS) begin : g_packets
+      logic [SLOTS-1:0] of_packet_q;
+      always_ff @(posedge clk_i)
+        if (requests_pop_o) of_packet_q[requests_data_i[32+:SLOT_BITS]] <= requests_data_i[SLOT_BITS+32];
+      wire of_packet = of_packet_q[done_slot];
+      assign leaving_ready = of_packet ? packets_ready_i : done_ready_i;
+      assign done_push_o = leaves && !of_packet;
+      assign packets_push_o = leaves && of_packet;
+    end else begin : g_alone
+      assign leaving_ready = done_ready_i;
+      assign done_push_o = leaves;
+      assign packets_push_o = 1'b0;
+      wire unused_packets = packets_ready_i;
+    end
+  endgenerate
 
   // The node in order: masks of bare ones are full.
   logic [MASKS_BITS-1:0] masks;
@@ -154,7 +175,7 @@ module node_fetch #(
     end
   endgenerate
   logic [BOXES_BITS+131+MASKS_BITS:0] nodes_q[SLOTS];
-  always_ff @(posedge clk_i) if (done_push_o) nodes_q[done_slot] <= {full, masks, children, boxes};
+  always_ff @(posedge clk_i) if (leaves) nodes_q[done_slot] <= {full, masks, children, boxes};
   generate
     for (genvar port = 0; port < READ_PORTS; port++) begin : g_port
       assign {node_full_o[4*port+:4], node_masks_o[MASKS_BITS*port+:MASKS_BITS], node_children_o[128*port+:128],

@@ -4,13 +4,14 @@
 //   in   freed         contexts that result_queue has emptied
 //   out  to_scheduler  the root, for each ray
 //   out  to_result     rays that visit nothing
+//   out  to_packets    with PACKETS instead of to_scheduler: each ray that is valid or the last one of its packet
 //   latency interval_i - 1 + LATENCY, one ray each interval_i cycles
 //   twin    model/pipeline/ray_queue.h; intersect::prepare_ray, is_valid (model/intersect/ray.h)
 //   stated  docs/unit.md
 //
 // The host holds the next ray with ray_valid_i until ray_take_o. In that cycle its context's registers are written at
 // ray_slot_o: of the ray, what the host gives and the signs and axes of its direction (ray_*_o); of the best hit,
-// t = tmax, u = v = 0, no primitive. The quotients are written when the ray leaves for the scheduler (setup_*_o).
+// t = tmax, u = v = 0, no primitive. The quotients are written when a valid ray leaves (setup_*_o).
 //
 // Arithmetic: 1 / d of each axis rounded down and up, +0 where d is zero; d[kx] / d[kz] and d[ky] / d[kz] to nearest.
 // These five divisions are given to as many dividers as MIN_INTERVAL needs, in the last cycles that the ray keeps the
@@ -21,7 +22,8 @@
 module ray_queue #(
     parameter int SLOT_BITS = 5,
     parameter int LATENCY = 20,
-    parameter int MIN_INTERVAL = 3
+    parameter int MIN_INTERVAL = 3,
+    parameter bit PACKETS = 1'b0  // rays travel in packets
 ) (
     input logic clk_i,
     input logic rst_i,
@@ -36,6 +38,7 @@ module ray_queue #(
     input  logic [         95:0] ray_direction_i,
     input  logic [         31:0] ray_tmin_i,
     input  logic [         31:0] ray_tmax_i,
+    input  logic                 ray_closes_i,         // with PACKETS: it is the last one of its packet
     output logic                 ray_take_o,
     output logic [SLOT_BITS-1:0] ray_slot_o,
     output logic [          2:0] ray_zero_axes_o,
@@ -53,6 +56,9 @@ module ray_queue #(
     input  logic                    to_result_ready_i,
     output logic                    to_result_push_o,
     output logic [   SLOT_BITS-1:0] to_result_data_o,
+    input  logic                    to_packets_ready_i,
+    output logic                    to_packets_push_o,
+    output logic [   SLOT_BITS+1:0] to_packets_data_o,     // {slot, joins, closes}
 
     output logic                 setup_write_o,
     output logic [SLOT_BITS-1:0] setup_slot_o,
@@ -98,7 +104,7 @@ module ray_queue #(
   // The pipeline.
   logic can_enter, start, enable, exit_valid, leaves, empty;
   logic [SLOT_BITS-1:0] slot, slot_q, leaving_slot;
-  logic accepted, valid, valid_q, leaving_valid;
+  logic accepted, valid, valid_q, leaving_valid, leaving_ready;
   pipe_control #(
       .LATENCY(LATENCY),
       .OCCUPIES_BITS(7)
@@ -107,7 +113,7 @@ module ray_queue #(
       .rst_i,
       .enter_i(ray_take_o),
       .occupies_i(interval_i),
-      .ready_i(leaving_valid ? to_scheduler_ready_i : to_result_ready_i),
+      .ready_i(leaving_ready),
       .can_enter_o(can_enter),
       .start_o(start),
       .enable_o(enable),
@@ -127,10 +133,38 @@ module ray_queue #(
   );
   wire waits = ray_valid_i && can_enter;
   assign ray_take_o = waits && (fresh || head_q != tail_q);
-  assign to_scheduler_push_o = leaves && leaving_valid;
+  assign to_scheduler_push_o = !PACKETS && leaves && leaving_valid;
   assign to_scheduler_data_o = {leaving_slot, 32'd0};
   assign to_result_push_o = leaves && !leaving_valid;
   assign to_result_data_o = leaving_slot;
+
+  // Packets: what leaves may have two ways to go, then it needs both at once.
+  generate
+    if (PACKETS) begin : g_packets
+      logic closes_q, leaving_closes;
+      wire closes = ray_take_o ? ray_closes_i : closes_q;
+      always_ff @(posedge clk_i) if (enable) closes_q <= closes;
+      pipe_row #(
+          .WIDTH(1),
+          .DEPTH(LATENCY)
+      ) row_closes (
+          .clk_i,
+          .enable_i(enable),
+          .data_i(closes),
+          .data_o(leaving_closes)
+      );
+      wire to_packets = leaving_valid || leaving_closes;
+      assign leaving_ready = (!to_packets || to_packets_ready_i) && (leaving_valid || to_result_ready_i);
+      assign to_packets_push_o = leaves && to_packets;
+      assign to_packets_data_o = {leaving_slot, leaving_valid, leaving_closes};
+      wire unused_scheduler = to_scheduler_ready_i;
+    end else begin : g_alone
+      assign leaving_ready = leaving_valid ? to_scheduler_ready_i : to_result_ready_i;
+      assign to_packets_push_o = 1'b0;
+      assign to_packets_data_o = '0;
+      wire unused_packets = &{1'b0, ray_closes_i, to_packets_ready_i};
+    end
+  endgenerate
   assign activity_o = !enable ? `CTU_OUTPUT_FULL :
                       leaves || ray_take_o || !empty ? `CTU_BUSY :
                       waits ? `CTU_NO_CONTEXT : `CTU_IDLE;
@@ -261,7 +295,7 @@ module ray_queue #(
     end
   endgenerate
 
-  assign setup_write_o = to_scheduler_push_o;
+  assign setup_write_o = leaves && leaving_valid;
   assign setup_slot_o = leaving_slot;
   assign setup_rcp_down_o = {quotients[96*2+32+:32], quotients[96*1+32+:32], quotients[32+:32]};
   assign setup_rcp_up_o = {quotients[96*2+:32], quotients[96*1+:32], quotients[0+:32]};

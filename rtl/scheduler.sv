@@ -12,7 +12,9 @@
 `include "tokens.svh"
 
 module scheduler #(
-    parameter int SLOT_BITS = 5
+    parameter int SLOT_BITS = 5,
+    parameter bit PACKETS = 1'b0,  // what comes from rays are nodes of packets
+    localparam int OF_PACKET = PACKETS ? 1 : 0
 ) (
     input  logic                  clk_i,
     input  logic                  rst_i,
@@ -25,7 +27,7 @@ module scheduler #(
     output logic                  from_rays_pop_o,
     input  logic                  to_node_fetch_ready_i,
     output logic                  to_node_fetch_push_o,
-    output logic [SLOT_BITS+31:0] to_node_fetch_data_o,   // a ref
+    output logic [SLOT_BITS+31+OF_PACKET:0] to_node_fetch_data_o,  // a ref; with PACKETS whether it is a packet's above
     input  logic                  to_leaf_fetch_ready_i,
     output logic                  to_leaf_fetch_push_o,
     output logic [SLOT_BITS+31:0] to_leaf_fetch_data_o,   // a ref
@@ -130,7 +132,18 @@ module scheduler #(
   wire unused_difference = &{1'b0, leaf_after_node[30:0]};
   assign to_node_fetch_push_o = issue && !issue_leaf;
   assign to_leaf_fetch_push_o = issue && issue_leaf;
-  assign to_node_fetch_data_o = issued;
+  generate
+    if (PACKETS) begin : g_packets
+      logic [SLOTS-1:0] of_packet_q;  // by context
+      always_ff @(posedge clk_i) begin
+        if (from_stack_valid_i) of_packet_q[stack_slot] <= 1'b0;
+        if (from_rays_valid_i) of_packet_q[rays_slot] <= 1'b1;
+      end
+      assign to_node_fetch_data_o = {of_packet_q[issued[32+:SLOT_BITS]], issued};
+    end else begin : g_alone
+      assign to_node_fetch_data_o = issued;
+    end
+  endgenerate
   assign to_leaf_fetch_data_o = issued;
 
   always_ff @(posedge clk_i) begin

@@ -4,9 +4,8 @@
 //   twin    one axis of ctu::intersect::slab_test (model/intersect/slab_test.h)
 //
 // Arithmetic: an axis along which the ray moves down is mirrored (signs flipped, exact), so that the lower face is the
-// near one. A bound is the distance of plane and origin, rounded in its direction, times the reciprocal that makes the
-// product an outer bound, rounded again. A zero distance gives t = +0 whatever the reciprocal. Along an axis on which
-// the ray does not move the bounds are infinite: open where the origin lies in the closed slab, crossed where not.
+// near one; slab_bound gives the bounds. Along an axis on which the ray does not move they are infinite: open where the
+// origin lies in the closed slab, crossed where not.
 // Without INNER only near_down_o and far_up_o are built; the others are zero.
 `include "float_format.svh"
 
@@ -93,53 +92,21 @@ module slab_axis #(
       if (bound < BOUNDS) begin : g_built
         localparam bit IS_FAR = bound[0];
         localparam bit ROUNDS_UP = bound[0] != bound[1];
-        localparam logic [1:0] ROUND = ROUNDS_UP ? `FLOAT_ROUND_UP : `FLOAT_ROUND_DOWN;
 
-        logic [31:0] distance, rcp, product;
-        logic on_plane, on_plane_q;
-        float_add #(
-            .LATENCY(SUBTRACT_LATENCY)
-        ) subtract (
+        logic [31:0] moving;
+        slab_bound #(
+            .SUBTRACT_LATENCY(SUBTRACT_LATENCY),
+            .MULTIPLY_LATENCY(MULTIPLY_LATENCY),
+            .ROUNDS_UP(ROUNDS_UP)
+        ) moving_bound (
             .clk_i,
             .enable_i,
-            .a_i(IS_FAR ? far_plane : near_plane),
-            .b_i(origin),
-            .subtract_i(1'b1),
-            .round_i(ROUND),
-            .result_o(distance)
+            .plane_i(IS_FAR ? far_plane : near_plane),
+            .origin_i(origin),
+            .rcp_smaller_i(rcp_smaller_q),
+            .rcp_larger_i(rcp_larger_q),
+            .time_o(moving)
         );
-        // Of a positive distance the smaller reciprocal gives the lower bound, of a negative one the larger.
-`ifdef CTU_MUTATE_RECIPROCAL_BY_DIRECTION
-        assign rcp = ROUNDS_UP ? rcp_larger_q : rcp_smaller_q;
-`else
-        assign rcp = distance[31] == ROUNDS_UP ? rcp_smaller_q : rcp_larger_q;
-`endif
-        assign on_plane = distance[30:0] == 31'd0;
-        float_mul #(
-            .LATENCY(MULTIPLY_LATENCY)
-        ) multiply (
-            .clk_i,
-            .enable_i,
-            .a_i(distance),
-            .b_i(rcp),
-            .round_i(ROUND),
-            .result_o(product)
-        );
-        pipe_row #(
-            .WIDTH(1),
-            .DEPTH(MULTIPLY_LATENCY)
-        ) row_on_plane (
-            .clk_i,
-            .enable_i,
-            .data_i(on_plane),
-            .data_o(on_plane_q)
-        );
-`ifdef CTU_MUTATE_ZERO_DISTANCE
-        wire unused_on_plane = on_plane_q;
-        wire [31:0] moving = product;
-`else
-        wire [31:0] moving = on_plane_q ? 32'd0 : product;
-`endif
         assign times[32*bound+:32] =
             !standing_q ? moving : (IS_FAR == outside_q) ? `FLOAT_MINUS_INFINITY : `FLOAT_PLUS_INFINITY;
       end else begin : g_left_out

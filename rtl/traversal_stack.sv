@@ -3,9 +3,11 @@
 //   in   sorted     surviving children of a node, nearest first
 //   in   leaf_done  rays whose leaf is finished
 //   in   refills    lines with spilled entries that have come back
+//   in   starts     with PACKETS: rays that begin with the entries of their packet
 //   out  to_scheduler  rays with their next reference
 //   out  to_result     rays whose stack is empty, or that are finished
 //   out  spills        writes of the oldest entries, reads of the youngest spilled ones
+//   out  released      with PACKETS: packets whose last ray has begun
 //   latency a token taken in cycle t is worked on from t + 1: pushes push_width_i entries a cycle, in the last one the
 //           ray goes on to the scheduler, or pops an entry a cycle; in its last cycle the next token is taken
 //   twin    model/pipeline/traversal_stack.h; the order of t0 and best hit as ExecSource::drops
@@ -20,6 +22,9 @@
 //
 // A context begins empty, and is left empty when its ray goes to the result, so nobody needs to clear it. Without
 // HAS_SPILLS no ray may ever hold more than entries_i, and the three memory ports are dead.
+//
+// A ray that begins is a push whose survivors are the entries of its packet; the nearest of them goes to the scheduler, or
+// is dropped as one that is popped, which makes it a pop.
 `include "tokens.svh"
 
 module traversal_stack #(
@@ -29,7 +34,11 @@ module traversal_stack #(
     parameter int ADDRESS_BITS = 32,
     parameter int LINE_BYTES = 128,
     parameter bit HAS_SPILLS = 1'b1,
-    parameter bit EXITS = 1'b0       // entries hold t1 too, for primitive_cull
+    parameter bit EXITS = 1'b0,      // entries hold t1 too, for primitive_cull
+    parameter int PACKETS = 0,       // under way at once, at most; 0: rays begin alone
+    parameter int PACKET_ENTRIES = 1,
+    localparam int PACKET_BITS = PACKETS <= 2 ? 1 : $clog2(PACKETS),
+    localparam int NUMBER_BITS = PACKETS == 0 ? 2 : 4  // of survivors, or entries of a packet
 ) (
     input logic clk_i,
     input logic rst_i,
@@ -60,6 +69,18 @@ module traversal_stack #(
     input  logic                                              spills_ready_i,
     output logic                                              spills_push_o,
     output logic [ADDRESS_BITS+`CTU_ID_BITS+8*LINE_BYTES : 0] spills_data_o,
+
+    // With PACKETS.
+    input  logic                             starts_valid_i,
+    input  logic [SLOT_BITS+PACKET_BITS : 0] starts_data_i,      // {slot, packet, last}
+    output logic                             starts_pop_o,
+    input  logic                             released_ready_i,
+    output logic                             released_push_o,
+    output logic [          PACKET_BITS-1:0] released_data_o,
+    // How many entries the packet in starts has; and those {t0, reference} of the packet whose ray begins.
+    input  logic [                      4:0] packet_count_i,
+    output logic [          PACKET_BITS-1:0] packet_o,
+    input  logic [    64*PACKET_ENTRIES-1:0] packet_entries_i,
 
     // Registers of the context that is served, and the node it has visited.
     output logic [SLOT_BITS-1:0] slot_o,
@@ -93,7 +114,8 @@ module traversal_stack #(
   localparam logic [1:0] JOB_FINISH = 2'd3;
 
   // The ray that is served: survivors number 1 .. to_push_q are still to be pushed.
-  logic [1:0] job_q, to_push_q;
+  logic [1:0] job_q;
+  logic [NUMBER_BITS-1:0] to_push_q;
   logic [SLOT_BITS-1:0] slot_q;
   logic [7:0] order_q;
   logic [DEPTH_BITS-1:0] depth_q, spilled_q;
@@ -107,9 +129,16 @@ module traversal_stack #(
   wire [BANK_BITS-1:0] top_bank = top_place[BANK_BITS-1:0];
   wire [ENTRY-1:0] top = row[ENTRY*32'(top_bank)+:ENTRY];
 
+  // The ray begins: it is a packet's, of which no entry is there, which it is the last one of.
+  logic begins, begins_none, begins_last;
+  logic [63:0] first_entry;
+  logic [64*(1<<NUMBER_BITS)-1:0] packet_entries;
+  wire [31:0] compared_t0 = begins ? first_entry[63:32] : top[63:32];
+  wire released_ready = !begins_last || released_ready_i;
+
   logic beyond, at_best, unused_unordered;
   float_compare compare_top (
-      .a_i(top[63:32]),
+      .a_i(compared_t0),
       .b_i(best_t_i),
       .less_o(beyond),
       .equal_o(at_best),
@@ -119,9 +148,9 @@ module traversal_stack #(
 
   // Work of this cycle.
   wire [DEPTH_BITS-1:0] room = DEPTH_BITS'(entries_i) - (depth_q - spilled_q);
-  wire [1:0] wanted = to_push_q < push_width_i ? to_push_q : push_width_i;
+  wire [1:0] wanted = to_push_q < NUMBER_BITS'(push_width_i) ? to_push_q[1:0] : push_width_i;
   wire [1:0] fitting = room < DEPTH_BITS'(wanted) ? room[1:0] : wanted;
-  logic spills, refills, pushes, pops, passes, finishes, ends;
+  logic spills, refills, pushes, pops, passes, finishes, drops, begun, ends;
   logic [1:0] pushed;
   logic [3:0] work;
   always_comb begin
@@ -131,18 +160,26 @@ module traversal_stack #(
     pops = 1'b0;      // an entry is popped
     passes = 1'b0;    // the ray goes to the scheduler
     finishes = 1'b0;  // the ray goes to the result
+    drops = 1'b0;     // a ray that begins drops its nearest entry
+    begun = 1'b0;     // a ray that begins has done so
     pushed = 2'd0;
     work = `CTU_BUSY;
     case (job_q)
       JOB_NONE: work = `CTU_IDLE;
       JOB_PUSH:
-      if (HAS_SPILLS && to_push_q != 2'd0 && room == '0) begin
+      if (HAS_SPILLS && to_push_q != '0 && room == '0) begin
         spills = spills_ready_i;
         if (!spills_ready_i) work = `CTU_SPILL;
       end else begin
         pushes = 1'b1;
         pushed = HAS_SPILLS ? fitting : wanted;
-        if (pushed == to_push_q) begin
+        if (begins && NUMBER_BITS'(pushed) == to_push_q) begin
+          finishes = begins_none && released_ready && to_result_ready_i;
+          drops = !begins_none && dropping && released_ready;
+          passes = !begins_none && !dropping && released_ready && to_scheduler_ready_i;
+          begun = finishes || drops || passes;
+          if (!begun && pushed == 2'd0) work = `CTU_OUTPUT_FULL;
+        end else if (NUMBER_BITS'(pushed) == to_push_q) begin
           passes = to_scheduler_ready_i;
           if (!to_scheduler_ready_i && pushed == 2'd0) work = `CTU_OUTPUT_FULL;
         end
@@ -162,7 +199,7 @@ module traversal_stack #(
     endcase
     ends = passes || finishes || refills;
   end
-  wire [1:0] to_push = to_push_q - pushed;
+  wire [NUMBER_BITS-1:0] to_push = to_push_q - NUMBER_BITS'(pushed);
   wire [DEPTH_BITS-1:0] depth = depth_q + DEPTH_BITS'(pushed) - DEPTH_BITS'(pops);
   wire [DEPTH_BITS-1:0] spilled = spilled_q + (spills ? DEPTH_BITS'(spill_batch_i) : '0);
 `ifdef CTU_MUTATE_KEPT_DEPTH
@@ -173,7 +210,8 @@ module traversal_stack #(
 
   wire [1:0] nearest = order_q[1:0];
   assign to_scheduler_push_o = passes;
-  assign to_scheduler_data_o = {slot_q, job_q == JOB_PUSH ? children_i[32*32'(nearest)+:32] : top[31:0]};
+  wire [31:0] nearest_child = begins ? first_entry[31:0] : children_i[32*32'(nearest)+:32];
+  assign to_scheduler_data_o = {slot_q, job_q == JOB_PUSH ? nearest_child : top[31:0]};
   generate
     if (EXITS) begin : g_stay
       assign stay_begin_o = job_q == JOB_PUSH ? t0_i[32*32'(nearest)+:32] : top[63:32];
@@ -188,20 +226,35 @@ module traversal_stack #(
   assign to_result_data_o = slot_q;
 
   // The next token: inputs take turns.
-  wire [2:0] waiting = {HAS_SPILLS && refills_valid_i, leaf_done_valid_i, sorted_valid_i};
+  wire [3:0] waiting = {PACKETS != 0 && starts_valid_i, HAS_SPILLS && refills_valid_i, leaf_done_valid_i, sorted_valid_i};
   logic [1:0] turn_q, chosen, turn;
-  always_comb begin
-    case (turn_q)
-      2'd0: chosen = waiting[0] ? 2'd0 : waiting[1] ? 2'd1 : 2'd2;
-      2'd1: chosen = waiting[1] ? 2'd1 : waiting[2] ? 2'd2 : 2'd0;
-      default: chosen = waiting[2] ? 2'd2 : waiting[0] ? 2'd0 : 2'd1;
-    endcase
-    turn = chosen == 2'd2 ? 2'd0 : chosen + 2'd1;
-  end
-  wire takes = (job_q == JOB_NONE || ends) && waiting != 3'd0;
+  generate
+    if (PACKETS != 0) begin : g_four_inputs
+      always_comb begin
+        case (turn_q)
+          2'd0: chosen = waiting[0] ? 2'd0 : waiting[1] ? 2'd1 : waiting[2] ? 2'd2 : 2'd3;
+          2'd1: chosen = waiting[1] ? 2'd1 : waiting[2] ? 2'd2 : waiting[3] ? 2'd3 : 2'd0;
+          2'd2: chosen = waiting[2] ? 2'd2 : waiting[3] ? 2'd3 : waiting[0] ? 2'd0 : 2'd1;
+          default: chosen = waiting[3] ? 2'd3 : waiting[0] ? 2'd0 : waiting[1] ? 2'd1 : 2'd2;
+        endcase
+        turn = chosen + 2'd1;
+      end
+    end else begin : g_three_inputs
+      always_comb begin
+        case (turn_q)
+          2'd0: chosen = waiting[0] ? 2'd0 : waiting[1] ? 2'd1 : 2'd2;
+          2'd1: chosen = waiting[1] ? 2'd1 : waiting[2] ? 2'd2 : 2'd0;
+          default: chosen = waiting[2] ? 2'd2 : waiting[0] ? 2'd0 : 2'd1;
+        endcase
+        turn = chosen == 2'd2 ? 2'd0 : chosen + 2'd1;
+      end
+    end
+  endgenerate
+  wire takes = (job_q == JOB_NONE || ends) && waiting != 4'd0;
   assign sorted_pop_o = takes && chosen == 2'd0;
   assign leaf_done_pop_o = takes && chosen == 2'd1;
   assign refills_pop_o = takes && chosen == 2'd2;
+  assign starts_pop_o = PACKETS != 0 && takes && chosen == 2'd3;
   assign activity_o = takes ? `CTU_BUSY : work;
 
   wire [SLOT_BITS-1:0] sorted_slot = sorted_data_i[`CTU_NODE_FIELDS+:SLOT_BITS];
@@ -209,8 +262,9 @@ module traversal_stack #(
   wire unused_sorted = &{1'b0, sorted_data_i[19:16], sorted_data_i[3:0]};
   wire [SLOT_BITS-1:0] refill_slot = refills_data_i[8*LINE_BYTES+:SLOT_BITS];
   wire unused_refills = &{1'b0, refills_data_i};
-  wire [SLOT_BITS-1:0] next_slot =
-      chosen == 2'd0 ? sorted_slot : chosen == 2'd1 ? leaf_done_data_i[1+:SLOT_BITS] : refill_slot;
+  wire [SLOT_BITS-1:0] starts_slot = starts_data_i[PACKET_BITS+1+:SLOT_BITS];
+  wire [SLOT_BITS-1:0] next_slot = PACKETS != 0 && chosen == 2'd3 ? starts_slot : chosen == 2'd0 ? sorted_slot :
+                                   chosen == 2'd1 ? leaf_done_data_i[1+:SLOT_BITS] : refill_slot;
   assign visit_valid_o = sorted_pop_o;
   assign visit_slot_o = sorted_slot;
 
@@ -238,19 +292,24 @@ module traversal_stack #(
 `ifndef CTU_MUTATE_NO_TURNS
         turn_q <= turn;
 `endif
-        job_q <= sorted_pop_o ? (survivors == 4'd0 ? JOB_POP : JOB_PUSH) :
+        job_q <= starts_pop_o ? JOB_PUSH : sorted_pop_o ? (survivors == 4'd0 ? JOB_POP : JOB_PUSH) :
                  leaf_done_pop_o && leaf_done_data_i[0] ? JOB_FINISH : JOB_POP;
       end else if (ends) begin
         job_q <= JOB_NONE;
+      end else if (drops) begin
+        job_q <= JOB_POP;
       end
     end
   end
 
+  wire [1:0] survivors_to_push =
+      2'(survivors[0]) + 2'(survivors[1]) + 2'(survivors[2]) + 2'(survivors[3]) - 2'd1;
+  logic [NUMBER_BITS-1:0] start_to_push;
   always_ff @(posedge clk_i) begin
     if (takes) begin
       slot_q <= next_slot;
       order_q <= sorted_data_i[11:4];
-      to_push_q <= 2'(survivors[0]) + 2'(survivors[1]) + 2'(survivors[2]) + 2'(survivors[3]) - 2'd1;
+      to_push_q <= starts_pop_o ? start_to_push : NUMBER_BITS'(survivors_to_push);
       depth_q <= next_depth;
       spilled_q <= refills_pop_o ? refill_first : next_spilled;
     end else begin
@@ -260,18 +319,60 @@ module traversal_stack #(
     end
   end
 
+  // The ray that begins, and its packet.
+  generate
+    if (PACKETS != 0) begin : g_packets
+      logic begins_q, none_q, last_q;
+      logic [PACKET_BITS-1:0] packet_q;
+      always_ff @(posedge clk_i) begin
+        if (rst_i) begins_q <= 1'b0;
+        else if (takes) begins_q <= starts_pop_o;
+        else if (begun) begins_q <= 1'b0;
+        if (takes) begin
+          none_q <= packet_count_i == 5'd0;
+          last_q <= starts_data_i[0];
+          packet_q <= starts_data_i[PACKET_BITS:1];
+        end
+      end
+      wire [4:0] farthest = packet_count_i - 5'd1;
+      assign start_to_push = packet_count_i == 5'd0 ? '0 : farthest[NUMBER_BITS-1:0];
+      wire unused_farthest = farthest[4];
+      assign begins = begins_q;
+      assign begins_none = none_q;
+      assign begins_last = last_q;
+      assign packet_o = packet_q;
+      assign packet_entries = (64 * (1 << NUMBER_BITS))'(packet_entries_i);
+      assign first_entry = packet_entries_i[63:0];
+      assign released_push_o = begun && last_q;
+      assign released_data_o = packet_q;
+    end else begin : g_alone
+      assign begins = 1'b0;
+      assign begins_none = 1'b0;
+      assign begins_last = 1'b0;
+      assign packet_o = '0;
+      assign packet_entries = '0;
+      assign first_entry = '0;
+      assign start_to_push = '0;
+      assign released_push_o = 1'b0;
+      assign released_data_o = '0;
+      wire unused_packets =
+          &{1'b0, starts_valid_i, starts_data_i, released_ready_i, packet_count_i, packet_entries_i, begun};
+    end
+  endgenerate
+
   // What is pushed in this cycle, farthest first.
   logic [3*ENTRY-1:0] pushed_entries;
   generate
     for (genvar place = 0; place < 3; place++) begin : g_pushed
 `ifdef CTU_MUTATE_NEAREST_FIRST
-      wire [1:0] number = 2'd1 + 2'(place);
+      wire [NUMBER_BITS-1:0] number = NUMBER_BITS'(1) + NUMBER_BITS'(place);
 `else
-      wire [1:0] number = to_push_q - 2'(place);
+      wire [NUMBER_BITS-1:0] number = to_push_q - NUMBER_BITS'(place);
 `endif
-      wire [1:0] lane = order_q[2*32'(number)+:2];
-      assign pushed_entries[ENTRY*place+:ENTRY] =
+      wire [1:0] lane = order_q[2*32'(number[1:0])+:2];
+      wire [ENTRY-1:0] survivor =
           ENTRY'({t1_i[32*32'(lane)+:32], t0_i[32*32'(lane)+:32], children_i[32*32'(lane)+:32]});
+      assign pushed_entries[ENTRY*place+:ENTRY] = begins ? ENTRY'(packet_entries[64*32'(number)+:64]) : survivor;
     end
   endgenerate
 

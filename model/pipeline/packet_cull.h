@@ -12,13 +12,14 @@
 //   its tree; one node of each packet is under
 //   way at a time. A node keeps the test's entrance for packet_cull.interval cycles; packet_cull.latency cycles later
 //   (4 subtract, 4 multiply, 3 compare, 1 search) the search has its answer, and in the cycle behind that the next node
-//   is asked for or the first ray begins. Packets wait for either in the order in which they came to it.
+//   is asked for or the first ray begins. Packets wait for either in the order in which they came to it. Where the
+//   image's boxes are of reduced precision, box_decode.latency in front of it, in the same pipeline.
 //   stalls: output_full, no_packet
 //
 // Arithmetic: cull::packet::PacketSlabs. A packet waits for nothing but its own rays, which come as long as there are
 // as many contexts as rays in a packet, so it cannot stand still for ever.
 //
-// Stated in docs/unit.md. No twin in gates yet: a unit in SystemVerilog refuses traces whose rays travel in packets.
+// Stated for both twins in docs/unit.md. Twin in gates: rtl/packet_cull.sv.
 #pragma once
 
 #include <bit>
@@ -81,7 +82,7 @@ class PacketCull {
         log_(log),
         image_(image),
         interval_(static_cast<Cycle>(config.packet_cull.interval)),
-        pipe_(config.packet_cull.latency),
+        pipe_(config.packet_cull.latency + (image.decodes_boxes() ? config.box_decode.latency : 0)),
         free_(packets.count()),
         asking_(packets.count()),
         starting_(packets.count()),

@@ -12,6 +12,7 @@
 #include "model/accel/image.h"
 #include "model/base/error.h"
 #include "model/cull/on_chip_tables.h"
+#include "model/reference/entry_list.h"
 
 namespace ctu::area {
 namespace {
@@ -123,6 +124,17 @@ void add_primitives(Collector& all, const pipeline::UnitConfig& config, const Im
   if (image.spheres) all.set("SPHERE_LATENCY", config.sphere_test.latency);
 }
 
+void add_packets(Collector& all, const pipeline::UnitConfig& config, int entries) {
+  if (entries != 0 && (entries < 1 || entries > reference::kMostEntries))
+    throw Error("--packet-entries", fmt::format("{} entries of a packet", entries),
+                fmt::format("give 1 to {}, or 0 where rays travel alone", reference::kMostEntries));
+  all.set_if_there("PACKETS", entries == 0 ? 0 : config.packet_cull.packets, 0, "--packet-entries");
+  if (entries == 0) return;
+  all.set("PACKET_ENTRIES", entries);
+  all.set("PACKET_LATENCY", config.packet_cull.latency);
+  all.set("MIN_PACKET_INTERVAL", config.packet_cull.interval);
+}
+
 }  // namespace
 
 RtlParameters unit_parameters(const pipeline::UnitConfig& config, const cull::MaskOptions& masks,
@@ -136,6 +148,7 @@ RtlParameters unit_parameters(const pipeline::UnitConfig& config, const cull::Ma
   all.set_if_there("BOX_BITS", image.box_bits, 32, "--box-bits");
   if (image.box_bits != 32) all.set("DECODE_LATENCY", config.box_decode.latency);
   add_primitives(all, config, image);
+  add_packets(all, config, image.packet_entries);
   all.set("STACK_ENTRIES", static_cast<int>(std::bit_ceil(static_cast<unsigned>(config.stack.entries))));
   add_caches(all, config);
   add_latencies(all, config);

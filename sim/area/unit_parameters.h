@@ -9,10 +9,11 @@
 
 namespace ctu::area {
 
-/// What the image has that stages are there for, or are wider for.
+/// What image and rays have that stages are there for, or are wider for.
 struct ImageParts {
   std::uint32_t box_bits = 32;  ///< of a coordinate of the nodes' boxes
   bool primitive_boxes = false, spheres = false;
+  int packet_entries = 0;  ///< of a packet at most; 0: rays travel alone
 };
 
 /// Of masks count R, R_ray and the number of entries. Leaves have four primitives at most. Both caches have the sets,

@@ -2,6 +2,7 @@
 
 #include "model/accel/build.h"
 #include "model/accel/quantize.h"
+#include "model/reference/packet_forming.h"
 
 namespace ctu::sim::check {
 
@@ -10,12 +11,26 @@ CaseRandom scene_random(std::uint64_t seed, SceneNumber number) {
   return CaseRandom(seed, kBehindGenerators + number.generator, number.scene);
 }
 
+namespace {
+
+/// Rays of a packet go about the same way from about the same place, as far as there are such.
+void gather_alike(std::vector<intersect::Ray>& rays, int size) {
+  const reference::FormingOptions forming{size, static_cast<int>(rays.size()), reference::Forming::Origin};
+  std::vector<intersect::Ray> gathered;
+  gathered.reserve(rays.size());
+  for (const std::uint32_t place : reference::packet_order(rays, forming)) gathered.push_back(rays[place]);
+  rays = std::move(gathered);
+}
+
+}  // namespace
+
 CheckScene make_scene(std::uint64_t seed, SceneNumber number, const DrawSetup& draw, CaseRandom& random,
                       TesterCache& testers) {
   CheckScene scene;
   scene.number = number;
   scene.hard = make_case(seed, number.generator, number.scene);
   scene.setup = draw(random);
+  if (scene.setup.packets.any()) gather_alike(scene.hard.rays, scene.setup.packets.size);
   accel::BuildOptions build;
   build.max_leaf_triangles = scene.setup.leaf_triangles;
   scene.bvh = accel::build(scene.hard.mesh, build);
@@ -32,6 +47,11 @@ CheckScene make_scene(std::uint64_t seed, SceneNumber number, const DrawSetup& d
 
 reference::Traversal CheckScene::traversal() const {
   return {bvh, &masks.masks, *tester, setup.primitive_boxes ? &leaf_boxes : nullptr, cull::RayBoxRule::OncePerLeaf};
+}
+
+reference::PacketWalk CheckScene::packet_walk() const {
+  return {bvh, setup.packets, hard.rays,
+          reference::cut_packets(static_cast<std::uint32_t>(hard.rays.size()), setup.packets.size)};
 }
 
 accel::Image image_of(const CheckScene& scene) {

@@ -8,6 +8,7 @@
 #include "model/accel/bvh4.h"
 #include "model/accel/image.h"
 #include "model/reference/node_test.h"
+#include "model/reference/packet_walk.h"
 #include "model/reference/traversal.h"
 #include "sim/check/culling_setup.h"
 #include "sim/check/hard_case.h"
@@ -32,6 +33,8 @@ struct CheckScene {
 
   /// Walks the scene as its unit does.
   reference::Traversal traversal() const;
+  /// Its rays in packets; they must travel so.
+  reference::PacketWalk packet_walk() const;
   reference::NodeTest node_test() const { return {bvh, &masks.masks, *tester}; }
 };
 

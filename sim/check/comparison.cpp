@@ -136,7 +136,7 @@ std::uint64_t ComparisonResult::safe_forms_lost() const {
 ComparisonResult compare_forms(const CampaignOptions& options, const cull::MaskOptions& masks,
                                const std::function<void(std::uint64_t cases)>& progress) {
   const auto started = std::chrono::steady_clock::now();
-  const DrawSetup fixed = [&](CaseRandom&) { return CullingSetup{cull::Design::Projection, masks, 4}; };
+  const DrawSetup fixed = [&](CaseRandom&) { return CullingSetup{.design = cull::Design::Projection, .masks = masks}; };
   const cull::MaskTester comparators(cull::Design::Comparators, masks);
   TesterCache testers;
   ComparisonResult result;

@@ -54,6 +54,8 @@ std::string to_string(const CullingSetup& setup) {
   }
   if (setup.box_bits != accel::kFullBoxBits) text += fmt::format(", boxes of {} bits", setup.box_bits);
   if (setup.primitive_boxes) text += ", ray boxes";
+  if (setup.packets.any())
+    text += fmt::format(", packets of {} with {} entries", setup.packets.size, setup.packets.most_entries);
   return text + fmt::format(", leaves of {}", setup.leaf_triangles);
 }
 
@@ -78,6 +80,7 @@ CullingSetup draw_setup(const SetupChoice& choice, CaseRandom& random) {
   constexpr int kLeaves[] = {1, 2, 4, 4, 8, 15};
   constexpr int kEntries[] = {16, 32, 64};
   constexpr std::uint32_t kReduced[] = {16, 12, 8};
+  constexpr int kPacketSizes[] = {4, 8, 16, 32};
   CullingSetup setup;
   setup.design = choice.designs[static_cast<std::size_t>(random.below(static_cast<int>(choice.designs.size())))];
   const bool compressed = random.chance(0.125);
@@ -91,6 +94,9 @@ CullingSetup draw_setup(const SetupChoice& choice, CaseRandom& random) {
   setup.box_bits = choice.box_bits.value_or(box_bits);
   const bool primitive_boxes = random.chance(0.25);
   setup.primitive_boxes = choice.primitive_boxes.value_or(primitive_boxes);
+  const bool packets = random.chance(0.125);
+  const reference::PacketPlan plan{random.one_of(kPacketSizes), random.pick(1, choice.most_packet_entries)};
+  if (choice.packets.value_or(packets)) setup.packets = plan;
   return setup;
 }
 

@@ -13,6 +13,8 @@
 #include "model/accel/compact_node.h"
 #include "model/cull/mask_test.h"
 #include "model/cull/options.h"
+#include "model/reference/entry_list.h"
+#include "model/reference/packet_list.h"
 #include "sim/check/case_random.h"
 
 namespace ctu::sim::check {
@@ -23,6 +25,7 @@ struct CullingSetup {
   int leaf_triangles = 4;                        ///< at most
   std::uint32_t box_bits = accel::kFullBoxBits;  ///< of a coordinate of a node's boxes
   bool primitive_boxes = false;                  ///< ray boxes cull primitives in the leaves
+  reference::PacketPlan packets;                 ///< rays travel so, if at all
 };
 
 /// "mask-lut R 4, R_ray 6, L inf, leaves of 2".
@@ -32,7 +35,8 @@ struct SetupChoice {
   std::vector<cull::Design> designs;  ///< one of these; must not be empty
   std::optional<int> resolution{}, ray_resolution{}, levels{};
   std::optional<std::uint32_t> box_bits{};  ///< of a coordinate of boxes
-  std::optional<bool> primitive_boxes{};
+  std::optional<bool> primitive_boxes{}, packets{};
+  int most_packet_entries = reference::kMostEntries;
 };
 
 /// All that decide a ray's answer in software.
@@ -42,8 +46,8 @@ std::vector<cull::Design> all_designs();
 void validate(const SetupChoice& choice);
 
 /// Draws what is not chosen: R 2..8, R_ray R..2R as far as a table of it is made in a moment, L mostly unlimited,
-/// leaves of 1 to 15 triangles, and for some scenes compressed masks, boxes of reduced precision or ray boxes. R_ray is
-/// raised to R where R is above it.
+/// leaves of 1 to 15 triangles, and for some scenes compressed masks, boxes of reduced precision, ray boxes or rays in
+/// packets. R_ray is raised to R where R is above it.
 CullingSetup draw_setup(const SetupChoice& choice, CaseRandom& random);
 
 /// Mask tests by what their tables depend on, shared by scenes and threads. Compressed masks have their own.

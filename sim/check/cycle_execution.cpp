@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <mutex>
 
 #include "model/unit/run.h"
@@ -26,7 +27,8 @@ class CycleExecution : public Execution {
     const unit::RunOptions options = draw_options(random);
     const accel::Image image = image_of(scene);
     const auto recorded = record_rays(scene);
-    OneBlockFeed feed(recorded);
+    config.unit.contexts = std::max(config.unit.contexts, scene.setup.packets.size);
+    OneBlockFeed feed(recorded, scene.setup.packets);
     static std::mutex kernel;
     const std::lock_guard lock(kernel);
     return answers_of(unit::run(config, {image, *scene.tester, feed}, options), *recorded);

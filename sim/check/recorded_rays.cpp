@@ -8,6 +8,12 @@ std::shared_ptr<const reference::RayBlock> record_rays(const CheckScene& scene) 
   const reference::Traversal traversal = scene.traversal();
   auto block = std::make_shared<reference::RayBlock>();
   block->rays = scene.hard.rays;
+  if (scene.setup.packets.any()) {
+    const reference::PacketWalk walk = scene.packet_walk();
+    block->expected = walk.trace(traversal, block->steps);
+    block->packets = walk.list();
+    return block;
+  }
   for (const intersect::Ray& ray : block->rays) block->expected.push_back(traversal.trace(ray, &block->steps));
   return block;
 }

@@ -7,8 +7,13 @@ namespace {
 class ReferenceExecution : public Execution {
  public:
   Answers run(const CheckScene& scene, CaseRandom&) override {
-    const reference::Traversal traversal = scene.traversal();
     Answers answers;
+    if (scene.setup.packets.any()) {
+      reference::StepList steps;
+      answers.hits = scene.packet_walk().trace(scene.traversal(), steps);
+      return answers;
+    }
+    const reference::Traversal traversal = scene.traversal();
     answers.hits.reserve(scene.hard.rays.size());
     for (const intersect::Ray& ray : scene.hard.rays) answers.hits.push_back(traversal.trace(ray));
     return answers;

@@ -31,7 +31,8 @@ class RtlExecution : public Execution {
       config.mask_test.design = scene.setup.design;  // or a scene without masks would suit a build that reads them
       CaseRandom timing = random;
       draw_short_timing(timing, config);
-      OneBlockFeed feed(recorded);
+      config.unit.contexts = std::max(config.unit.contexts, scene.setup.packets.size);
+      OneBlockFeed feed(recorded, scene.setup.packets);
       const pipeline::Work work{image, *scene.tester, feed};
       const std::string reason = cosim::misfit(unit->parameters(), config, work);
       if (reason.empty()) return answers_of(cosim::run_rtl(*unit, config, work, {}), *recorded);
@@ -72,6 +73,8 @@ DrawSetup draw_rtl_setup(const SetupChoice& choice) {
     fixed.ray_resolution = build.ray_resolution;
     fixed.box_bits = build.box_bits;
     fixed.primitive_boxes = build.primitive_boxes;
+    fixed.packets = build.packets > 0;
+    if (build.packets > 0) fixed.most_packet_entries = build.packet_entries;
     CullingSetup setup = draw_setup(fixed, random);
     const auto bytes = static_cast<int>(accel::primitive_bytes({.primitive_boxes = build.primitive_boxes}));
     setup.leaf_triangles = std::min(setup.leaf_triangles, build.max_leaf_bytes / bytes);

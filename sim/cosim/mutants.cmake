@@ -9,3 +9,9 @@ foreach(mutation IN ITEMS
   ctu_rtl_build(${name} MUTATION ${mutation} DESIGN none SLOT_BITS 3 MAX_SETS 16 MAX_WAYS 2 MAX_MSHRS 4
     STACK_ENTRIES 16)
 endforeach()
+foreach(mutation IN ITEMS PACKET_DOUBTS PACKET_ORIGINS_SWAPPED)
+  string(TOLOWER ${mutation} name)
+  string(REPLACE "_" "-" name ${name})
+  ctu_rtl_build(${name} MUTATION ${mutation} DESIGN none SLOT_BITS 3 MAX_SETS 16 MAX_WAYS 2 MAX_MSHRS 4
+    STACK_ENTRIES 16 PACKETS 2 PACKET_ENTRIES 8)
+endforeach()

@@ -71,6 +71,16 @@ void check_primitives(Misfits& misfits, const RtlParameters& build, const pipeli
   }
 }
 
+void check_packets(Misfits& misfits, const RtlParameters& build, const pipeline::UnitConfig& config,
+                   const reference::PacketPlan& packets) {
+  misfits.same("rays in packets", build.packets > 0, packets.any());
+  if (build.packets == 0) return;
+  misfits.at_most("packet_cull.packets", build.packets, config.packet_cull.packets);
+  misfits.at_most("entries of a packet", build.packet_entries, packets.most_entries);
+  misfits.at_least("packet_cull.interval", build.packet_interval, config.packet_cull.interval);
+  misfits.same("packet_cull.latency", build.packet_latency, config.packet_cull.latency);
+}
+
 void check_mask_test(Misfits& misfits, const RtlParameters& build, const pipeline::UnitConfig& config,
                      const pipeline::Work& work) {
   const cull::MaskOptions& masks = work.tester.options();
@@ -127,7 +137,8 @@ std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& confi
   misfits.same("memory.line_bytes", build.line_bytes, config.memory.line_bytes);
   misfits.at_most("unit.contexts", 1 << build.slot_bits, config.unit.contexts);
   misfits.at_most("stack.entries", build.stack_entries, config.stack.entries);
-  if (3 * work.image.depth > config.stack.entries) misfits.same("spills", build.has_spills, true);
+  if (3 * work.image.depth + work.rays.packets().most_entries > config.stack.entries)
+    misfits.same("spills", build.has_spills, true);
   misfits.at_least("ray_setup.interval", build.ray_interval, config.ray_setup.interval);
   misfits.same("ray_setup.latency", build.ray_setup_latency, config.ray_setup.latency);
   misfits.same("bits of a coordinate", build.box_bits, work.image.layout.box_bits);
@@ -135,6 +146,7 @@ std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& confi
   misfits.same("box_test.latency", build.box_latency, config.box_test.latency);
   misfits.same("child_sort.latency", build.sort_latency, config.child_sort.latency);
   check_primitives(misfits, build, config, work.image);
+  check_packets(misfits, build, config, work.rays.packets());
   misfits.same("triangle_test.latency", build.triangle_latency, config.triangle_test.latency);
   misfits.same("hit_update.latency", build.hit_latency, config.hit_update.latency);
   check_cache(misfits, "node_cache", build, config.node_cache, build.node_ports);
@@ -168,6 +180,10 @@ pipeline::UnitConfig config_of(const RtlParameters& build) {
   config.child_sort.latency = build.sort_latency;
   config.primitive_cull.units = build.cull_units;
   config.primitive_cull.latency = build.cull_latency;
+  if (build.packets > 0) {
+    config.packet_cull = {.packets = build.packets, .latency = build.packet_latency};
+    config.packet_cull.interval = std::max(config.packet_cull.interval, build.packet_interval);
+  }
   config.triangle_test.latency = build.triangle_latency;
   config.sphere_test.latency = build.sphere_latency;
   config.hit_update.latency = build.hit_latency;
@@ -194,9 +210,6 @@ std::unique_ptr<RtlUnit> make_rtl_unit(const pipeline::UnitConfig& config, const
   if (work.image.trees() > 1)
     throw Error("--engine", "the unit in SystemVerilog begins every ray at one root, and this image has several trees",
                 "give --engine cycle, or record without --trees");
-  if (work.rays.packets().any())
-    throw Error("--engine", "the unit in SystemVerilog has no packet_cull, and these rays travel in packets",
-                "give --engine cycle, or record without --packets");
   std::string reasons;
   for (const std::string& library : rtl_libraries(folder)) {
     std::unique_ptr<RtlUnit> unit = load_if_current(library);

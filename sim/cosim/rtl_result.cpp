@@ -12,7 +12,7 @@ using pipeline::Cycle;
 
 constexpr std::initializer_list<Activity> kAllCauses = {
     Activity::OutputFull, Activity::NoContext, Activity::BankConflict, Activity::MshrsFull, Activity::MemoryPortFull,
-    Activity::FillPort,   Activity::Memory,    Activity::Spill,        Activity::Interval};
+    Activity::FillPort,   Activity::Memory,    Activity::Spill,        Activity::Interval,  Activity::NoPacket};
 
 constexpr int place_of_link(std::string_view name) {
   int place = 0;
@@ -45,6 +45,7 @@ RtlObserver::RtlObserver(const RtlParameters& build) {
     if (!build.table_cache && name == "table_fetch") continue;
     if (!build.primitive_boxes && name == "primitive_cull") continue;
     if (!build.spheres && name == "sphere_test") continue;
+    if (build.packets == 0 && name == "packet_cull") continue;
     stages_.push_back(stage);
     accounts_.emplace_back(name, kAllCauses);
   }

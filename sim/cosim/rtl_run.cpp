@@ -13,7 +13,7 @@ using pipeline::Client;
 constexpr std::size_t kWrongHitsKept = 16;
 
 ImageStraps straps_of(const pipeline::UnitConfig& config, const pipeline::Work& work) {
-  const pipeline::MemoryMap map(config, pipeline::UnitImage(work.image, work.tester, false));
+  const pipeline::MemoryMap map(config, image_of(work));
   const accel::Image& image = work.image;
   ImageStraps straps;
   straps.node_base = image.node_base;
@@ -27,6 +27,7 @@ ImageStraps straps_of(const pipeline::UnitConfig& config, const pipeline::Work& 
   straps.spill_region = map.spill_region;
   if (const cull::CompressionLut* lut = work.tester.compression_lut())
     straps.full_index = static_cast<std::uint64_t>(lut->entries() - 1);
+  straps.packet_entries = work.rays.packets().most_entries;
   strap_tables(straps, config, work);
   return straps;
 }
@@ -47,18 +48,22 @@ RtlRun::RtlRun(RtlUnit& unit, const pipeline::UnitConfig& config, const pipeline
 }
 
 void RtlRun::next_block() {
-  index_ = 0;
+  index_ = packet_ = 0;
   do {
     block_ = feed_.next();
   } while (block_ != nullptr && block_->rays.empty());
 }
 
-std::uint32_t RtlRun::stalled(pipeline::Side side) const {
+bool RtlRun::ray_closes() const {
+  return block_ != nullptr && feed_.packets().any() && index_ + 1 == block_->packets.first_ray[packet_ + 1];
+}
+
+std::uint64_t RtlRun::stalled(pipeline::Side side) const {
   if (!stalls_.any()) return 0;
-  std::uint32_t links = 0;
+  std::uint64_t links = 0;
   for (int link = 0; link < kLinks; ++link) {
     const int number = stall_numbers_[static_cast<std::size_t>(link)];
-    if (number >= 0 && stalls_.refuses(number, side, now_)) links |= 1u << link;
+    if (number >= 0 && stalls_.refuses(number, side, now_)) links |= std::uint64_t{1} << link;
   }
   return links;
 }
@@ -66,6 +71,7 @@ std::uint32_t RtlRun::stalled(pipeline::Side side) const {
 void RtlRun::begin() {
   UnitInputs inputs;
   inputs.ray = next_ray();
+  inputs.ray_closes = ray_closes();
   inputs.stall_push = stalled(pipeline::Side::Push);
   inputs.stall_pop = stalled(pipeline::Side::Pop);
   inputs.memory_busy = !memory_.empty();
@@ -108,6 +114,7 @@ void RtlRun::take_ray(pipeline::Slot slot) {
   if (block_ == nullptr || slot >= in_slot_.size()) return;
   in_slot_[slot] = {block_->first_ray + index_, block_->expected[index_]};
   ++taken_;
+  packet_ += ray_closes();
   if (++index_ == block_->rays.size()) next_block();
 }
 

@@ -43,11 +43,13 @@ class RtlRun {
   };
 
   const intersect::Ray* next_ray() const { return block_ == nullptr ? nullptr : &block_->rays[index_]; }
+  /// The next ray is the last one of its packet.
+  bool ray_closes() const;
   void next_block();
   void take_ray(pipeline::Slot slot);
   void give_back(const ReturnedRay& returned);
   [[noreturn]] void throw_row_left_out(pipeline::Slot slot) const;
-  std::uint32_t stalled(pipeline::Side side) const;
+  std::uint64_t stalled(pipeline::Side side) const;
 
   RtlUnit& unit_;
   reference::RayFeed& feed_;
@@ -55,7 +57,7 @@ class RtlRun {
   pipeline::Backpressure stalls_;
   std::array<int, kLinks> stall_numbers_;
   std::shared_ptr<const reference::RayBlock> block_;
-  std::uint32_t index_ = 0;
+  std::uint32_t index_ = 0, packet_ = 0;
   std::vector<RayInSlot> in_slot_;
   pipeline::Cycle now_ = 0;
   std::uint64_t taken_ = 0, returned_ = 0, wrong_hits_ = 0;

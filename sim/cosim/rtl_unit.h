@@ -32,6 +32,9 @@ struct RtlParameters {
   std::uint32_t box_bits = 32;                    ///< of a coordinate of the image's boxes
   bool primitive_boxes = false, spheres = false;  ///< the image has them
   int cull_units = 1;
+  int packets = 0;          ///< of rays, under way at once, at most; 0: rays travel alone
+  int packet_entries = 16;  ///< of a packet, at most
+  int packet_interval = 4;  ///< at least
   int max_leaf_bytes = 160;
   int slot_bits = 6;
   int stack_entries = 16;  ///< on chip, at most
@@ -42,8 +45,8 @@ struct RtlParameters {
   int max_mshrs = 64;
   int ray_interval = 3;  ///< at least
   int ray_setup_latency = 20, decode_latency = 5, box_latency = 11, locate_latency = 10, mask_latency = 2,
-      mask_second_latency = 1, sort_latency = 3, cull_latency = 10, triangle_latency = 45, sphere_latency = 89,
-      hit_latency = 2;
+      mask_second_latency = 1, sort_latency = 3, cull_latency = 10, packet_latency = 12, triangle_latency = 45,
+      sphere_latency = 89, hit_latency = 2;
 };
 
 /// Where image, spilled entries and tables lie: what the unit is told before a run.
@@ -52,6 +55,7 @@ struct ImageStraps {
   std::uint64_t triangle_base = 0, triangle_stride = 0;
   std::uint64_t spill_base = 0, spill_region = 0;
   std::uint64_t full_index = 0;  ///< of compressed masks, the last entry's
+  int packet_entries = 1;        ///< of a packet at most, where rays travel in packets
   std::array<std::uint64_t, 4> table_base{};
   int bit_row_shift = 0;  ///< log2 of a bit row's bytes
 };
@@ -65,7 +69,8 @@ struct LinkState {
 /// What the unit is given in a cycle.
 struct UnitInputs {
   const intersect::Ray* ray = nullptr;             ///< the next one, if there is one
-  std::uint32_t stall_push = 0, stall_pop = 0;     ///< bit link: refuses
+  bool ray_closes = false;                         ///< it is the last one of its packet
+  std::uint64_t stall_push = 0, stall_pop = 0;     ///< bit link: refuses
   const pipeline::ClientAnswer* answer = nullptr;  ///< of memory, if one is ready
   std::span<const std::uint8_t> answer_line;
   bool memory_busy = false;  ///< something is under way in it at the start of the cycle

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "model/pipeline/memory_map.h"
+#include "model/pipeline/unit_image.h"
 
 namespace ctu::cosim {
 namespace {
@@ -12,7 +13,7 @@ cull::OnChipTables tables_of(const pipeline::UnitConfig& config, const pipeline:
 }
 
 pipeline::TableLayout layout_of(const pipeline::UnitConfig& config, const pipeline::Work& work) {
-  const pipeline::UnitImage image(work.image, work.tester, false);
+  const pipeline::UnitImage image = image_of(work);
   return {config, tables_of(config, work), pipeline::MemoryMap(config, image), image.compressed()};
 }
 
@@ -24,6 +25,10 @@ void load_on_chip(RtlUnit& unit, const cull::TableContent& content) {
 }
 
 }  // namespace
+
+pipeline::UnitImage image_of(const pipeline::Work& work) {
+  return {work.image, work.tester, false, work.rays.packets().most_entries};
+}
 
 bool has_table_fetch(const pipeline::UnitConfig& config, const pipeline::Work& work) {
   return config.table_cache.bytes > 0 && !tables_of(config, work).tables().empty();
@@ -39,7 +44,7 @@ void strap_tables(ImageStraps& straps, const pipeline::UnitConfig& config, const
 }
 
 std::uint64_t bytes_behind_image(const pipeline::UnitConfig& config, const pipeline::Work& work) {
-  const pipeline::MemoryMap map(config, pipeline::UnitImage(work.image, work.tester, false));
+  const pipeline::MemoryMap map(config, image_of(work));
   const std::uint64_t end = has_table_fetch(config, work) ? layout_of(config, work).end() : map.table_base;
   return end - map.round_up(work.image.bytes.size());
 }

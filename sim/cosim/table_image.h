@@ -12,6 +12,9 @@
 
 namespace ctu::cosim {
 
+/// What the unit knows of the image and of the packets of the work's rays, without arithmetic.
+pipeline::UnitImage image_of(const pipeline::Work& work);
+
 /// Whether the design has tables and they lie behind table_cache.
 bool has_table_fetch(const pipeline::UnitConfig& config, const pipeline::Work& work);
 

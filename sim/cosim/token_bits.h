@@ -45,7 +45,7 @@ inline TokenBits bits_of(const pipeline::PacketToken& token, const TokenWidths&)
 }
 inline TokenBits bits_of(const pipeline::RefToken& token, const TokenWidths& widths) {
   TokenBits bits{};
-  BitWriter(bits.data()).put(token.ref, 32).put(token.slot, widths.slot);
+  BitWriter(bits.data()).put(token.ref, 32).put(token.slot, widths.slot).put(token.of_packet, 1);
   return bits;
 }
 inline TokenBits bits_of(const pipeline::NodeToken& token, const TokenWidths& widths) {

@@ -24,6 +24,9 @@ module unit_bench #(
     parameter int PRIMITIVE_BOXES = 0,
     parameter int SPHERES = 0,
     parameter int CULL_UNITS = 1,
+    parameter int PACKETS = 0,
+    parameter int PACKET_ENTRIES = 16,
+    parameter int MIN_PACKET_INTERVAL = 4,
     parameter int MAX_LEAF_BYTES = 160,
     parameter int STACK_ENTRIES = 64,
     parameter int HAS_SPILLS = 1,
@@ -39,6 +42,7 @@ module unit_bench #(
     parameter int MASK_SECOND_LATENCY = 1,
     parameter int SORT_LATENCY = 3,
     parameter int CULL_LATENCY = 10,
+    parameter int PACKET_LATENCY = 12,
     parameter int TRIANGLE_LATENCY = 45,
     parameter int SPHERE_LATENCY = 89,
     parameter int HIT_LATENCY = 2,
@@ -49,6 +53,9 @@ module unit_bench #(
 
     input logic [15:0] contexts_i,
     input logic [ 7:0] ray_interval_i,
+    input logic [ 7:0] packets_i,
+    input logic [ 7:0] packet_entries_i,
+    input logic [ 7:0] packet_interval_i,
     input logic        round_robin_i,
     // Caches of nodes, leaves, tables.
     input logic [15:0] cache_sets_i        [3],  // in use, a power of two; 0: no cache
@@ -79,6 +86,7 @@ module unit_bench #(
     input  logic [31:0] ray_tmin_i,
     input  logic [31:0] ray_tmax_i,
     input  logic        ray_any_hit_i,
+    input  logic        ray_closes_i,
     output logic        ray_take_o,
     output logic [ 7:0] ray_slot_o,
 
@@ -110,12 +118,12 @@ module unit_bench #(
     output logic         row_left_out_o,
     output logic [  7:0] row_left_out_slot_o,
 
-    input  logic [ 31:0] stall_push_i,
-    input  logic [ 31:0] stall_pop_i,
-    output logic [ 31:0] link_valid_o,
-    output logic [ 31:0] link_ready_o,
-    output logic [ 31:0] link_pop_o,
-    output logic [ 31:0] link_push_o,
+    input  logic [ 63:0] stall_push_i,
+    input  logic [ 63:0] stall_pop_i,
+    output logic [ 63:0] link_valid_o,
+    output logic [ 63:0] link_ready_o,
+    output logic [ 63:0] link_pop_o,
+    output logic [ 63:0] link_push_o,
     output logic [159:0] link_data_o [`CTU_LINKS],  // what is pushed; of memory's tokens without the line
     output logic [  7:0] activity_o  [`CTU_STAGES]
 );
@@ -125,6 +133,7 @@ module unit_bench #(
   localparam int WAY_BITS = $clog2(MAX_WAYS + 1);
   localparam int MSHR_BITS = $clog2(MAX_MSHRS + 1);
   localparam int CLIENTS = TABLE_CACHE != 0 ? 4 : HAS_SPILLS != 0 ? 3 : 2;
+  localparam int PACKET_BITS = PACKETS <= 2 ? 1 : $clog2(PACKETS);
 
   logic [CLIENTS-1:0] asked;
   logic [CLIENTS*ADDRESS_BITS-1:0] address;
@@ -152,6 +161,9 @@ module unit_bench #(
       .PRIMITIVE_BOXES(PRIMITIVE_BOXES != 0),
       .SPHERES(SPHERES != 0),
       .CULL_UNITS(CULL_UNITS),
+      .PACKETS(PACKETS),
+      .PACKET_ENTRIES(PACKET_ENTRIES),
+      .MIN_PACKET_INTERVAL(MIN_PACKET_INTERVAL),
       .STACK_ENTRIES(STACK_ENTRIES),
       .HAS_SPILLS(HAS_SPILLS != 0),
       .MAX_SETS(MAX_SETS),
@@ -168,6 +180,7 @@ module unit_bench #(
       .MASK_SECOND_LATENCY(MASK_SECOND_LATENCY),
       .SORT_LATENCY(SORT_LATENCY),
       .CULL_LATENCY(CULL_LATENCY),
+      .PACKET_LATENCY(PACKET_LATENCY),
       .TRIANGLE_LATENCY(TRIANGLE_LATENCY),
       .SPHERE_LATENCY(SPHERE_LATENCY),
       .HIT_LATENCY(HIT_LATENCY),
@@ -177,6 +190,9 @@ module unit_bench #(
       .rst_i,
       .contexts_i((SLOT_BITS + 1)'(contexts_i)),
       .ray_interval_i(7'(ray_interval_i)),
+      .packets_i((PACKET_BITS + 1)'(packets_i)),
+      .packet_entries_i(5'(packet_entries_i)),
+      .packet_interval_i(7'(packet_interval_i)),
       .round_robin_i,
       .node_set_mask_i(SET_BITS'(cache_sets_i[0] - 16'd1)),
       .node_ways_i(WAY_BITS'(cache_ways_i[0])),
@@ -214,6 +230,7 @@ module unit_bench #(
       .ray_tmin_i,
       .ray_tmax_i,
       .ray_any_hit_i,
+      .ray_closes_i,
       .ray_take_o,
       .ray_slot_o(ray_slot_o[SLOT_BITS-1:0]),
       .return_valid_o,
@@ -264,11 +281,10 @@ module unit_bench #(
     end
   endgenerate
 
-  assign link_valid_o = 32'(unit.valid);
-  assign link_ready_o = 32'(unit.ready);
-  assign link_pop_o = 32'(unit.pop);
-  assign link_push_o = 32'(unit.push);
-  assign link_data_o[`CTU_RAY_TO_SCHEDULER] = 160'(unit.ray_to_scheduler_in);
+  assign link_valid_o = 64'(unit.valid);
+  assign link_ready_o = 64'(unit.ready);
+  assign link_pop_o = 64'(unit.pop);
+  assign link_push_o = 64'(unit.push);
   assign link_data_o[`CTU_RAY_TO_RESULT] = 160'(unit.ray_to_result_in);
   assign link_data_o[`CTU_RESULT_TO_RAY] = 160'(unit.result_to_ray_in);
   assign link_data_o[`CTU_SCHEDULER_TO_NODE] = 160'(unit.scheduler_to_node_in);
@@ -305,6 +321,25 @@ module unit_bench #(
       assign link_data_o[`CTU_LEAF_TO_CULL] = '0;
       assign link_data_o[`CTU_CULL_TO_TRIANGLE] = '0;
       assign link_data_o[`CTU_CULL_TO_HIT] = '0;
+    end
+    // Numbers of packets in the model's width.
+    if (PACKETS != 0) begin : g_packets
+      wire [SLOT_BITS-1:0] start_slot = unit.g_packets.packet_to_stack_in[PACKET_BITS+1+:SLOT_BITS];
+      wire [5:0] start_packet = 6'(unit.g_packets.packet_to_stack_in[PACKET_BITS:1]);
+      assign link_data_o[`CTU_RAY_TO_SCHEDULER] = '0;
+      assign link_data_o[`CTU_RAY_TO_PACKET] = 160'(unit.g_packets.ray_to_packet_in);
+      assign link_data_o[`CTU_PACKET_TO_SCHEDULER] = 160'({1'b1, unit.g_packets.packet_to_scheduler_in});
+      assign link_data_o[`CTU_NODE_TO_PACKET] = 160'(unit.g_packets.node_to_packet_in);
+      assign link_data_o[`CTU_PACKET_TO_STACK] =
+          160'({start_slot, start_packet, unit.g_packets.packet_to_stack_in[0]});
+      assign link_data_o[`CTU_STACK_TO_PACKET] = 160'(unit.g_packets.stack_to_packet_in);
+    end else begin : g_no_packets
+      assign link_data_o[`CTU_RAY_TO_SCHEDULER] = 160'(unit.g_no_packets.ray_to_scheduler_in);
+      assign link_data_o[`CTU_RAY_TO_PACKET] = '0;
+      assign link_data_o[`CTU_PACKET_TO_SCHEDULER] = '0;
+      assign link_data_o[`CTU_NODE_TO_PACKET] = '0;
+      assign link_data_o[`CTU_PACKET_TO_STACK] = '0;
+      assign link_data_o[`CTU_STACK_TO_PACKET] = '0;
     end
     if (SPHERES != 0) begin : g_sphere_test
       assign link_data_o[`CTU_TRIANGLE_TO_HIT] = '0;

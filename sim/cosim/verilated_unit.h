@@ -32,6 +32,9 @@ class VerilatedUnit final : public RtlUnit {
   void configure(const pipeline::UnitConfig& config, const ImageStraps& straps) override {
     model_.contexts_i = static_cast<std::uint16_t>(config.unit.contexts);
     model_.ray_interval_i = static_cast<std::uint8_t>(config.ray_setup.interval);
+    model_.packets_i = static_cast<std::uint8_t>(config.packet_cull.packets);
+    model_.packet_entries_i = static_cast<std::uint8_t>(straps.packet_entries);
+    model_.packet_interval_i = static_cast<std::uint8_t>(config.packet_cull.interval);
     model_.round_robin_i = config.scheduler.policy == pipeline::SchedulerPolicy::RoundRobin;
     set_cache(0, config.node_cache, config.memory.line_bytes);
     set_cache(1, config.leaf_cache, config.memory.line_bytes);
@@ -74,6 +77,7 @@ class VerilatedUnit final : public RtlUnit {
   void begin_cycle(const UnitInputs& inputs) override {
     model_.ray_valid_i = inputs.ray != nullptr;
     if (inputs.ray != nullptr) set_ray(*inputs.ray);
+    model_.ray_closes_i = inputs.ray_closes;
     model_.stall_push_i = inputs.stall_push;
     model_.stall_pop_i = inputs.stall_pop;
     model_.mem_busy_i = inputs.memory_busy;
@@ -128,7 +132,7 @@ class VerilatedUnit final : public RtlUnit {
     return model_.row_left_out_o;
   }
   LinkState link(int number) const override {
-    const auto bit = [number](std::uint32_t bits) { return (bits >> number & 1) != 0; };
+    const auto bit = [number](std::uint64_t bits) { return (bits >> number & 1) != 0; };
     LinkState state{
         bit(model_.link_valid_o), bit(model_.link_ready_o), bit(model_.link_pop_o), bit(model_.link_push_o), {}};
     if (state.pushed)

@@ -32,6 +32,20 @@ TEST_F(EngineCommandTest, the_unit_in_gates_returns_every_ray_alone_and_beside_t
   }
 }
 
+TEST_F(EngineCommandTest, rays_in_packets_run_on_the_build_that_has_packet_cull) {
+  ASSERT_EQ(ctusim("record 'gen:hair-ball?strands=50&seed=7' -o together.ctut --size 12x12 --rays primary --packets 16")
+                .exit_code,
+            0);
+  for (const std::string engine : {"rtl", "both"}) {
+    const Outcome outcome = ctusim("run together.ctut --engine " + engine);
+    EXPECT_EQ(outcome.exit_code, 0) << engine << "\n" << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("packet_cull"), std::string::npos) << outcome.out;
+    const Outcome refused = ctusim("run together.ctut --set mask_test.design=none --engine " + engine);
+    EXPECT_EQ(refused.exit_code, 2) << engine << "\n" << refused.out;
+    EXPECT_NE(refused.err.find("rays in packets false instead of true"), std::string::npos) << refused.err;
+  }
+}
+
 TEST_F(EngineCommandTest, leaves_that_the_unit_does_not_keep_whole_are_refused) {
   const std::string scene = "record 'gen:hair-ball?strands=50&seed=7' -o large.ctut --size 4x4 --rays primary ";
   // Nothing is split, so leaves of eight triangles are the rule; and two triangles of 128 bytes are 256.

@@ -37,14 +37,15 @@ struct Totals {
 /// Worlds by trace and masks: many configurations share them.
 class Worlds {
  public:
-  test::World& get(const std::string& trace, const RtlParameters& build, int rays) {
+  test::World& get(const std::string& trace, const RtlParameters& build, int rays,
+                   const reference::PacketPlan& packets) {
     const bool from_outside = build.rows == cull::TableRows::Reachable;  // only these have rows
     const int leaf_bytes = build.primitive_boxes ? build.max_leaf_bytes : 0;
-    auto& world = worlds_[fmt::format("{} {} {} {} {} {} {} {} {}", trace, static_cast<int>(build.design),
+    auto& world = worlds_[fmt::format("{} {} {} {} {} {} {} {} {} {} {}", trace, static_cast<int>(build.design),
                                       build.resolution, build.ray_resolution, build.entries, build.box_bits,
-                                      from_outside, leaf_bytes, build.spheres)];
+                                      from_outside, leaf_bytes, build.spheres, packets.size, packets.most_entries)];
     if (world) return *world;
-    world = make_grid_world(trace, build, rays);
+    world = make_grid_world(trace, build, rays, packets);
     if (from_outside)
       world = std::make_unique<test::World>(world->tree(), build.design, rays_from_outside(*world), mask_options(build),
                                             build.box_bits, build.primitive_boxes);
@@ -55,10 +56,15 @@ class Worlds {
   std::map<std::string, std::unique_ptr<test::World>> worlds_;
 };
 
+/// Empty where rays travel alone.
+std::string text_of(const reference::PacketPlan& packets) {
+  return packets.any() ? fmt::format(" packets {} entries {}", packets.size, packets.most_entries) : std::string();
+}
+
 /// The twins in lock step over one world.
 LockStepResult run(const GridConfig& config, const std::string& trace, RtlUnit& unit, test::World& world,
                    Totals& totals) {
-  test::VectorFeed model_feed(world.blocks()), rtl_feed(world.blocks());
+  test::VectorFeed model_feed(world.blocks(), world.packets()), rtl_feed(world.blocks(), world.packets());
   const pipeline::UnitConfig unit_configuration = unit_config(unit.parameters(), config.settings);
   const pipeline::Work model_work{world.image(), world.tester(), model_feed},
       rtl_work{world.image(), world.tester(), rtl_feed};
@@ -68,8 +74,9 @@ LockStepResult run(const GridConfig& config, const std::string& trace, RtlUnit& 
   options.stall_seed = config.stall_seed;
   const LockStepResult result = run_lock_step(unit, unit_configuration, model_work, rtl_work, options);
   const bool agree = !result.difference && result.rtl_wrong_hits == 0 && result.model.wrong_hits == 0;
-  fmt::print("{:<18} {:<9} {:>6} {:>9} {:>11} {:>5}  {}{}\n", config.build, trace, result.model.rays, result.cycles,
-             result.handshakes, agree ? 0 : 1, config.settings, config.stall_seed != 0 ? " stalled at random" : "");
+  fmt::print("{:<18} {:<9} {:>6} {:>9} {:>11} {:>5}  {}{}{}\n", config.build, trace, result.model.rays, result.cycles,
+             result.handshakes, agree ? 0 : 1, config.settings, text_of(config.packets),
+             config.stall_seed != 0 ? " stalled at random" : "");
   if (result.difference) fmt::print("  {}\n", to_string(*result.difference));
   if (result.rtl_wrong_hits + result.model.wrong_hits != 0)
     fmt::print("  wrong hits: model {}, rtl {}\n", result.model.wrong_hits, result.rtl_wrong_hits);
@@ -113,10 +120,10 @@ int run_grid(const Arguments& arguments) {
     ++configs;
     const std::string hash = sim::config_hash(unit_config(unit->parameters(), config.settings));
     for (const std::string& trace : grid_traces()) {
-      test::World& world = worlds.get(trace, unit->parameters(), arguments.rays);
+      test::World& world = worlds.get(trace, unit->parameters(), arguments.rays, config.packets);
       if (world.rays() == 0) continue;  // shadow rays begin on surfaces, where no reachable row serves
       const LockStepResult result = run(config, trace, *unit, world, totals);
-      const std::string key = fmt::format("{} {}{},{},{}", hash, config.build,
+      const std::string key = fmt::format("{} {}{}{},{},{}", hash, config.build, text_of(config.packets),
                                           config.stall_seed == 0 ? "" : fmt::format(" stalls {}", config.stall_seed),
                                           trace, result.model.rays);
       judge(arguments, baseline, key, result, totals);

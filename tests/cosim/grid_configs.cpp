@@ -121,6 +121,34 @@ const std::vector<GridConfig>& grid_configs() {
       {"ray-boxes-spheres", "memory.model=ideal memory.latency=2 memory.interval=1 unit.contexts=12", 63},
       {"spheres", "unit.contexts=8", 0},
       {"spheres", "unit.contexts=3 triangle_test.interval=3 leaf_cache.bytes=0", 64},
+      // Rays in packets: their size and the most entries they may have, above that what time depends on.
+      {"packets", "", 0, true, {16, 8}},
+      {"packets",
+       "unit.contexts=9 packet_cull.packets=2 node_cache.bytes=256 node_cache.ways=1 leaf_cache.bytes=256 "
+       "leaf_cache.ways=1 stack.entries=2 stack.push_width=1 stack.spill_batch=2",
+       70,
+       true,
+       {4, 8}},
+      {"packets",
+       "unit.contexts=64 node_cache.bytes=1024 packet_cull.packets=1 scheduler.policy=round-robin",
+       71,
+       false,
+       {64, 16}},
+      {"packets",
+       "unit.contexts=64 packet_cull.interval=9 stack.entries=1 stack.push_width=2 stack.spill_batch=1 "
+       "memory.model=ideal memory.latency=1 memory.interval=1",
+       0,
+       false,
+       {64, 8}},
+      {"packets", "unit.contexts=16 node_cache.bytes=0 leaf_cache.bytes=0 result.interval=20", 72, false, {16, 1}},
+      {"packets-ray-boxes", "unit.contexts=16 node_cache.bytes=4096 leaf_cache.bytes=2048", 0, false, {4, 5}},
+      {"packets-ray-boxes",
+       "unit.contexts=16 packet_cull.packets=2 packet_cull.interval=2 node_cache.bytes=128 node_cache.ways=1 "
+       "leaf_cache.bytes=128 leaf_cache.ways=1 stack.entries=3 stack.spill_batch=2 memory.model=ideal "
+       "memory.latency=30 memory.interval=1",
+       73,
+       false,
+       {16, 3}},
   };
   return configs;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model/pipeline/unit_config.h"
+#include "model/reference/packet_list.h"
 #include "sim/cosim/rtl_unit.h"
 
 namespace ctu::cosim {
@@ -15,6 +16,7 @@ struct GridConfig {
   std::string settings;          ///< "key=value key=value ..."; what the build fixes is added by itself
   std::uint64_t stall_seed = 0;  ///< not 0: every link refuses at random
   bool quick = false;            ///< part of the share that the test suite runs
+  reference::PacketPlan packets{};
 };
 
 const std::vector<GridConfig>& grid_configs();

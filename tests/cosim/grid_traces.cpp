@@ -141,12 +141,36 @@ accel::Bvh4 tree_for(const RtlParameters& build, scene::Mesh& mesh) {
                              .triangle_cost = 0.01f});
 }
 
-std::unique_ptr<test::World> make_world(const RtlParameters& build, accel::Bvh4 tree, const std::vector<Ray>& rays) {
-  return std::make_unique<test::World>(std::move(tree), build.design, rays, mask_options(build), build.box_bits,
-                                       build.primitive_boxes);
+/// In four of five packets the valid rays begin where their first one does and go nearly its way, each to its own end.
+void gather(std::vector<Ray>& rays, int size) {
+  const auto valid = [](const Ray& ray) { return intersect::prepare_ray(ray).valid; };
+  const Ray* first = nullptr;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::size_t place = i % static_cast<std::size_t>(size), packet = i / static_cast<std::size_t>(size);
+    if (place == 0) first = nullptr;
+    if (packet % 5 == 4 || !valid(rays[i])) continue;
+    if (first == nullptr) {
+      first = &rays[i];
+      continue;
+    }
+    Ray gathered = rays[i];
+    gathered.origin = first->origin;
+    for (int axis = 0; axis < 3; ++axis)
+      gathered.direction[axis] = first->direction[axis] + 0.02f * rays[i].direction[axis];
+    if (valid(gathered)) rays[i] = gathered;
+  }
 }
 
-std::unique_ptr<test::World> make_hostile(const RtlParameters& build, int count) {
+std::unique_ptr<test::World> make_world(const RtlParameters& build, accel::Bvh4 tree, std::vector<Ray> rays,
+                                        const reference::PacketPlan& packets) {
+  if (packets.any()) gather(rays, packets.size);
+  auto world = std::make_unique<test::World>(std::move(tree), build.design, rays, mask_options(build), build.box_bits,
+                                             build.primitive_boxes);
+  if (packets.any()) world->travel_in(packets);
+  return world;
+}
+
+std::unique_ptr<test::World> make_hostile(const RtlParameters& build, int count, const reference::PacketPlan& packets) {
   test::ClosedMesh cube = test::closed_cube(4);
   accel::Bvh4 tree = tree_for(build, cube.mesh);
   RaySource source(tree, cube.mesh);
@@ -156,19 +180,20 @@ std::unique_ptr<test::World> make_hostile(const RtlParameters& build, int count)
     rays.push_back(i % 2 == 0
                        ? hostile_ray(source, i / 2)
                        : aimed.next(test::kFamilies[static_cast<std::size_t>(i / 2) % std::size(test::kFamilies)]));
-  return make_world(build, std::move(tree), rays);
+  return make_world(build, std::move(tree), std::move(rays), packets);
 }
 
 }  // namespace
 
-std::unique_ptr<test::World> make_grid_world(const std::string& trace, const RtlParameters& build, int rays) {
-  if (trace == "hostile") return make_hostile(build, rays);
+std::unique_ptr<test::World> make_grid_world(const std::string& trace, const RtlParameters& build, int rays,
+                                             const reference::PacketPlan& packets) {
+  if (trace == "hostile") return make_hostile(build, rays, packets);
   const char* const scene = trace == "interior" ? "gen:foliage?twigs=40" : "gen:hair-ball?strands=200";
   scene::Mesh mesh = scene::load(scene).mesh;
   accel::Bvh4 tree = tree_for(build, mesh);
   RaySource source(tree, mesh);
-  const std::vector<Ray> list = rays_of(trace == "single" ? "hair" : trace, source, trace == "single" ? 1 : rays);
-  return make_world(build, std::move(tree), list);
+  std::vector<Ray> list = rays_of(trace == "single" ? "hair" : trace, source, trace == "single" ? 1 : rays);
+  return make_world(build, std::move(tree), std::move(list), packets);
 }
 
 }  // namespace ctu::cosim

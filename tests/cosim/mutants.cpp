@@ -32,8 +32,15 @@ const std::map<std::string, std::vector<std::string>>& broken_places() {
       {"port-turn-stays", {"node_to_memory", "leaf_to_memory", "stack_to_memory"}},
       {"hit-later-wins", {"hit_update", "hit_to_stack", "stack_to_scheduler", "unit", "hit"}},
       {"sort-lane-ties", {"sort_to_stack"}},
+      {"packet-doubts", {"packet_to_scheduler", "packet_to_stack", "packet_cull"}},
+      {"packet-origins-swapped", {"packet_to_scheduler", "packet_to_stack", "packet_cull"}},
   };
   return places;
+}
+
+/// What the build is for.
+reference::PacketPlan packets_for(const RtlParameters& build) {
+  return build.packets == 0 ? reference::PacketPlan{} : reference::PacketPlan{4, build.packet_entries};
 }
 
 /// What the twins first differ in, over traces, settings and refusals; or a wrong hit.
@@ -44,8 +51,8 @@ std::optional<Difference> find(RtlUnit& unit) {
   for (const char* settings : kSettings)
     for (const std::uint64_t stalls : {0, 5, 6})
       for (const char* trace : {"hair", "interior", "hostile"}) {
-        const auto world = make_grid_world(trace, unit.parameters(), 150);
-        test::VectorFeed model_feed(world->blocks()), rtl_feed(world->blocks());
+        const auto world = make_grid_world(trace, unit.parameters(), 150, packets_for(unit.parameters()));
+        test::VectorFeed model_feed(world->blocks(), world->packets()), rtl_feed(world->blocks(), world->packets());
         LockStepOptions options;
         options.stall_seed = stalls;
         const LockStepResult result =

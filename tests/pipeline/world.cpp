@@ -118,10 +118,13 @@ accel::Image World::make_image(std::uint32_t box_bits, bool primitive_boxes) con
   return accel::make_image(tree_, indices.data(), 1, layout);
 }
 
+reference::Traversal World::traversal(const std::vector<accel::PrimitiveBox>& boxes) const {
+  return {tree_, &masks_, tester_, image_.layout.primitive_boxes ? &boxes : nullptr, cull::RayBoxRule::OncePerLeaf};
+}
+
 void World::record(const std::vector<intersect::Ray>& rays) {
   const std::vector<accel::PrimitiveBox> boxes = reference::leaf_boxes(tree_);
-  const reference::Traversal culled(tree_, &masks_, tester_, image_.layout.primitive_boxes ? &boxes : nullptr,
-                                    cull::RayBoxRule::OncePerLeaf);
+  const reference::Traversal culled = traversal(boxes);
   for (std::size_t first = 0; first < rays.size(); first += kRaysPerBlock) {
     auto block = std::make_shared<reference::RayBlock>();
     block->first_ray = first;
@@ -148,12 +151,13 @@ void World::forget_steps() {
 
 void World::travel_in(const reference::PacketPlan& packets) {
   packets_ = packets;
-  const reference::Traversal traversal(tree_, &masks_, tester_);
+  const std::vector<accel::PrimitiveBox> boxes = reference::leaf_boxes(tree_);
+  const reference::Traversal culled = traversal(boxes);
   for (auto& block : blocks_) {
     auto travelling = std::make_shared<reference::RayBlock>(*block);
     const auto rays = static_cast<std::uint32_t>(block->rays.size());
     travelling->packets = reference::cut_packets(rays, packets.size, block->trees);
-    const std::vector<intersect::Hit> found = reference::walk_block(traversal, packets, *travelling);
+    const std::vector<intersect::Hit> found = reference::walk_block(culled, packets, *travelling);
     reference::expect_any_hits_found(travelling->rays, found, travelling->expected);
     block = std::move(travelling);
   }

@@ -11,6 +11,7 @@
 #include "model/cull/mask_test.h"
 #include "model/pipeline/engine.h"
 #include "model/reference/ray_block.h"
+#include "model/reference/traversal.h"
 #include "model/scene/scene.h"
 
 namespace ctu::test {
@@ -55,6 +56,7 @@ class World {
   const std::vector<std::shared_ptr<const reference::RayBlock>>& blocks() const { return blocks_; }
   reference::Counts counts() const;
   std::uint64_t rays() const { return rays_; }
+  const reference::PacketPlan& packets() const { return packets_; }
   /// The same rays without their recorded steps.
   void forget_steps();
   /// The same rays, each in its one of the trees; ray i in trees[i % size]. What they must return stays what they find
@@ -66,6 +68,8 @@ class World {
  private:
   accel::Image make_image(std::uint32_t box_bits, bool primitive_boxes) const;
   void record(const std::vector<intersect::Ray>& rays);
+  /// As the unit goes about it, leaves included.
+  reference::Traversal traversal(const std::vector<accel::PrimitiveBox>& boxes) const;
 
   accel::Bvh4 tree_;
   cull::ObjectMasks masks_;

@@ -290,6 +290,27 @@ TEST(UnitParameters, OfTheConfigurationAndWhatTheRtlHasNot) {
   EXPECT_NE(refused().find("software only"), std::string::npos);
 }
 
+TEST(UnitParameters, OfRaysInPacketsOnlyWhereTheyTravelSo) {
+  const ScratchFolder folder;
+  const auto top = folder.path() / "ctu_unit.sv";
+  write_text(top, "module ctu_unit #(parameter int PACKETS = 0) (); endmodule\n");
+  pipeline::UnitConfig config;
+  config.packet_cull = {.packets = 5, .latency = 9, .interval = 2};
+  const auto value = [&](int entries, const char* name) {
+    for (const auto& [parameter, set] : unit_parameters(config, {}, top, {.packet_entries = entries}))
+      if (parameter == name) return set;
+    return std::int64_t{-1};
+  };
+  EXPECT_EQ(value(0, "PACKETS"), 0);
+  EXPECT_EQ(value(0, "PACKET_ENTRIES"), -1);
+  EXPECT_EQ(value(7, "PACKETS"), 5);
+  EXPECT_EQ(value(7, "PACKET_ENTRIES"), 7);
+  EXPECT_EQ(value(7, "PACKET_LATENCY"), 9);
+  EXPECT_EQ(value(7, "MIN_PACKET_INTERVAL"), 2);
+  for (const int entries : {-1, 17})
+    EXPECT_NE(problem_of([&] { value(entries, "PACKETS"); }).find("--packet-entries"), std::string::npos);
+}
+
 /// The program, on a unit with the parameters of the real one and a single stage.
 TEST(AreaCommand, PrintsTablesAndJsonAndRefusesWithCodeTwo) {
   const ScratchFolder folder;

@@ -399,8 +399,6 @@ TEST_F(CommandTest, rays_in_packets_find_the_same_hits_with_every_engine_and_sou
   }
   expect_refused("run together.ctut --set unit.contexts=7", "unit.contexts");
   expect_refused("run together.ctut --set packet_cull.packets=0", "packet_cull.packets");
-  for (const std::string engine : {"rtl", "both"})
-    expect_refused("run together.ctut --engine " + engine, "packet_cull");
   expect_refused("run together.ctut --engine estimate", "packets");
   expect_refused("trace slice together.ctut -o x.ctut --first 5 --rays 16", "cut a packet in two");
   EXPECT_EQ(ctusim("trace slice together.ctut -o part.ctut --first 8 --rays 16").exit_code, 0);

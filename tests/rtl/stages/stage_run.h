@@ -32,7 +32,7 @@ class StageRun {
   /// The same over another image of the world.
   StageRun(const test::World& world, const accel::Image& image, const pipeline::UnitConfig& config,
            std::uint64_t stall_seed)
-      : feed_(world.blocks()), unit_(config, {image, world.tester(), feed_}, {.seed = stall_seed}) {}
+      : feed_(world.blocks(), world.packets()), unit_(config, {image, world.tester(), feed_}, {.seed = stall_seed}) {}
 
   pipeline::TappedUnit& unit() { return unit_; }
 
