@@ -37,7 +37,7 @@ void put(std::uint32_t* words, const Vec3& vector) { BitWriter(words).put(vector
 intersect::Box4 boxes_of(const sim::check::PacketCase& packet, int test) {
   intersect::Box4 boxes{};
   for (int axis = 0; axis < 3; ++axis) {
-    const float lower = packet.box.lower[axis], upper = packet.box.upper[axis];
+    const float lower = packet.box.lo[axis], upper = packet.box.hi[axis];
     const float origin = packet.rays.front().origin[axis];
     boxes.lo[axis][0] = test == 1 ? lower / 2 + upper / 2 : test == 2 ? std::min(lower, origin) : lower;
     boxes.hi[axis][0] = test == 2 ? std::max(upper, origin) : upper;
