@@ -25,7 +25,7 @@ struct CullingSetup {
   int leaf_triangles = 4;                        ///< at most
   std::uint32_t box_bits = accel::kFullBoxBits;  ///< of a coordinate of a node's boxes
   bool primitive_boxes = false;                  ///< ray boxes cull primitives in the leaves
-  reference::PacketPlan packets;                 ///< rays travel so, if at all
+  reference::PacketPlan packets{};               ///< rays travel so, if at all
 };
 
 /// "mask-lut R 4, R_ray 6, L inf, leaves of 2".

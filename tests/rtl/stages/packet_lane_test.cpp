@@ -63,6 +63,7 @@ class LaneTwin {
     model_.tmin_i = bits(ray.ray.tmin);
     model_.tmax_i = bits(ray.ray.tmax);
     model_.enable_i = 0;
+    model_.eval();
     clock(model_);
     model_.join_i = 0;
   }
@@ -73,8 +74,10 @@ class LaneTwin {
       model_.hi_i[axis] = bits(boxes.hi[axis][0]);
     }
     model_.enable_i = 0;
+    model_.eval();
     if (!enable) clock(model_);  // nothing moves
     model_.enable_i = 1;
+    model_.eval();
     clock(model_);
     inside_.push_back(times);
     if (inside_.size() < kLatency) return;
