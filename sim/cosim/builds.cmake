@@ -32,7 +32,7 @@ ctu_rtl_build(spheres DESIGN comparators SPHERES 1 SPHERE_LATENCY 20 SLOT_BITS 3
 # Rays in packets: the default unit with them; and with ray boxes in the leaves and boxes of reduced precision as well.
 ctu_rtl_build(packets ALL PACKETS 8 SLOT_BITS 6)
 ctu_rtl_build(packets-ray-boxes DESIGN mask-lut PRIMITIVE_BOXES 1 BOX_BITS 8 DECODE_LATENCY 2 PACKETS 3 PACKET_ENTRIES 5
-  MIN_PACKET_INTERVAL 1 PACKET_LATENCY 3 LINE_BYTES 64 MAX_LEAF_BYTES 256 MAX_WAYS 4 BOX_LATENCY 4 CULL_LATENCY 4
+  MIN_PACKET_INTERVAL 1 PACKET_LATENCY 3 MAX_SETS 128 MAX_WAYS 4 MAX_LEAF_BYTES 256 BOX_LATENCY 4 CULL_LATENCY 4
   TRIANGLE_LATENCY 13)
 
 ctu_rtl_build(comparators-r6 DESIGN comparators R 6 R_RAY 6 ENTRIES 64 LOCATE_LATENCY 3)

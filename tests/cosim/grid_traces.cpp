@@ -141,7 +141,8 @@ accel::Bvh4 tree_for(const RtlParameters& build, scene::Mesh& mesh) {
                              .triangle_cost = 0.01f});
 }
 
-/// In four of five packets the valid rays begin where their first one does and go nearly its way, each to its own end.
+/// In four of five packets the valid rays begin where their first one does, or near it, and go nearly its way, each to
+/// its own end.
 void gather(std::vector<Ray>& rays, int size) {
   const auto valid = [](const Ray& ray) { return intersect::prepare_ray(ray).valid; };
   const Ray* first = nullptr;
@@ -154,9 +155,11 @@ void gather(std::vector<Ray>& rays, int size) {
       continue;
     }
     Ray gathered = rays[i];
-    gathered.origin = first->origin;
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
+      const float away = i % 2 == 0 ? 0.0f : 0.01f;
+      gathered.origin[axis] = first->origin[axis] + away * (rays[i].origin[axis] - first->origin[axis]);
       gathered.direction[axis] = first->direction[axis] + 0.02f * rays[i].direction[axis];
+    }
     if (valid(gathered)) rays[i] = gathered;
   }
 }
