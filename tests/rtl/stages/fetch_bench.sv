@@ -55,6 +55,7 @@ module fetch_bench #(
   localparam int LANE_BITS = MASK_BITS == 0 ? 1 : MASK_BITS;
 
   logic [8*LANE_BITS-1:0] masks;
+  logic no_packets;
   node_fetch #(
       .SLOT_BITS(SLOT_BITS),
       .LINE_BYTES(LINE_BYTES),
@@ -91,6 +92,8 @@ module fetch_bench #(
       .done_ready_i(done_ready_i[0]),
       .done_push_o(done_push_o[0]),
       .done_data_o(done_data_o[0]),
+      .packets_ready_i(1'b0),
+      .packets_push_o(no_packets),
       .activity_o(activity_o[0]),
       .node_slot_i({node_slot_i[1], node_slot_i[0]}),
       .node_boxes_o({node_boxes_o[1], node_boxes_o[0]}),
