@@ -36,7 +36,6 @@ ctu_test(test_rtl_packet_cull
 
 # What it is made of is checked with it. The other stages that have more to do where rays travel in packets are checked in
 # the whole unit's structures, and the stack's second source of entries here.
-rtl_check(packet_cull SOURCES ${packet_cull_sources} WORD_LEVEL)
 rtl_check(packet_cull SOURCES ${packet_cull_sources} VARIANT compact
   PARAMETERS BOX_BITS=8 MIN_INTERVAL=1 LATENCY=1 PACKETS=3 ENTRIES=5)
 rtl_check(traversal_stack SOURCES ${traversal_stack_sources} VARIANT packets
