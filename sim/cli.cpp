@@ -339,8 +339,9 @@ void add_area(CLI::App& app, Parsed& parsed) {
       ->capture_default_str();
   command->add_flag("--primitive-boxes", args.primitive_boxes, "of an image with a box beside every primitive");
   command->add_flag("--spheres", args.spheres, "of an image with spheres");
-  command->add_option("--packet-entries", args.packet_entries,
-                      "of rays in packets, each with so many entries at most; 0: rays travel alone")
+  command
+      ->add_option("--packet-entries", args.packet_entries,
+                   "of rays in packets, each with so many entries at most; 0: rays travel alone")
       ->capture_default_str();
   command->add_option("--stages", args.stages, "only these, by name: cell_locate,mask_test; none: all");
   command->add_flag("--fpga", args.fpga, "also LUT4, DSP and block RAM of the Lattice ECP5 family");

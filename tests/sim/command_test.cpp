@@ -339,7 +339,8 @@ TEST_F(CommandTest, a_resolution_whose_table_is_too_large_is_recorded_all_the_sa
   expect_refused("run fine.ctut --engine reference --set mask_test.design=mask-lut", "ray-mask table");
 }
 
-TEST_F(CommandTest, shadow_rays_find_the_same_in_local_trees_with_every_culling_at_once_and_the_run_says_who_saved_what) {
+TEST_F(CommandTest,
+       shadow_rays_find_the_same_in_local_trees_with_every_culling_at_once_and_the_run_says_who_saved_what) {
   const std::string scene = "record 'gen:foliage?twigs=100' --size 200x150 --rays shadow --leaf 8 --triangle-cost 0.3 ";
   ASSERT_EQ(ctusim(scene + "-o one.ctut").exit_code, 0);
   const Outcome recorded =
