@@ -74,7 +74,7 @@ constexpr int kRepetitions = 200;
 TEST_F(SampledTest, intervals_cover_the_cycles_of_the_whole_run_at_their_stated_rate) {
   const Unit unit(small_unit());
   const double truth = cycles(unit.config);
-  const auto seed = static_cast<std::uint64_t>(std::random_device{}()) << 20;
+  constexpr std::uint64_t seed = 1;  // and those behind it: a rate of 200 trials is chance, which no run should be
   RecordProperty("seed", std::to_string(seed));
   ladder::SampledOptions options;
   options.error = 1;  // one draw is enough
@@ -95,7 +95,7 @@ TEST_F(SampledTest, intervals_cover_the_cycles_of_the_whole_run_at_their_stated_
 TEST_F(SampledTest, paired_chunks_say_how_two_units_differ) {
   const Unit first(small_unit()), second(small_unit({"mask_test.design=none"}));
   const double truth = cycles(second.config) / cycles(first.config);
-  const auto seed = static_cast<std::uint64_t>(std::random_device{}()) << 20;
+  constexpr std::uint64_t seed = 1;  // and those behind it: a rate of 200 trials is chance, which no run should be
   RecordProperty("seed", std::to_string(seed));
   ladder::SampledOptions options;
   options.error = 1;
