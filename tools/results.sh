@@ -456,7 +456,7 @@ ladder_row() {  # LABEL SCENE RAYS OPTION...
   keep rungs "$program" ladder "$scratch/ladder.ctut" --errors 2% --markdown "$@"
   awk -F' *[|] *' -v label="$label | $rays" -v rays="$(awk '/^rays /{ print $2 }' <("$program" trace info "$scratch/ladder.ctut"))" '
     $2 == "estimate" { counting = $9 }
-    $2 == "estimate, counted before" { error = $4; faster = $9 }
+    $2 == "estimate again" { error = $4; faster = $9 }
     $2 ~ /^sampled/ { sample = $4 " | " $5 " | " $6 " | " $9; held = ($4 + 0 < 0 ? -$4 : $4 + 0) <= substr($5, 3) + 0 ? "yes" : "no" }
     $2 == "cycle" { cycles = $3; seconds = $7 }
     END { printf "| %s | %d | %d | %.2f | %s | %s | %s | %s | %s |\n", label, rays, cycles, seconds, error, counting, faster, sample, held }' \

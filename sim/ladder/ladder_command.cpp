@@ -94,7 +94,7 @@ class Climber {
 
   /// Cycles of the unit relative to those of the first one.
   void compare(const Unit& first, const Ladder& of_first, const Unit& second, Ladder& ladder) {
-    for (const char* engine : {"estimate, counted before", "cycle", "rtl"}) {
+    for (const char* engine : {"estimate again", "cycle", "rtl"}) {
       const Rung *a = find(of_first, engine), *b = find(ladder, engine);
       if (a != nullptr && b != nullptr && a->note.empty() && b->note.empty())
         ladder.comparings.push_back({engine, b->cycles / a->cycles, std::nullopt, a->wall_seconds + b->wall_seconds});
@@ -140,7 +140,7 @@ class Climber {
     const VisitProfile profile = profile_of(unit.work, unit.image, unit.config);
     const double counting_seconds = counting.seconds();
     ProfileStore().keep(profile_name(unit.work, unit.config), profile);
-    Rung again = rung("estimate, counted before", run(unit, "estimate"));
+    Rung again = rung("estimate again", run(unit, "estimate"));
     again.share = 0;
     Rung whole = again;
     whole.engine = "estimate";

@@ -9,7 +9,7 @@ namespace ctu::ladder {
 
 /// One run.
 struct Rung {
-  std::string engine;  ///< "estimate", "estimate, counted before", "sampled 2%", "cycle", "rtl"
+  std::string engine;  ///< "estimate", "estimate again", "sampled 2%", "cycle", "rtl"
   double cycles = 0;
   double error = 0;                    ///< of the cycles, relative to those of the reference
   std::optional<double> half_width{};  ///< of a sample's interval, likewise

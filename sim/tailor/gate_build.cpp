@@ -43,7 +43,8 @@ void run(const std::string& command, const fs::path& log) {
 }  // namespace
 
 std::string gate_build_line(const std::string& name, const pipeline::UnitConfig& config, const UnitParts& parts) {
-  if (parts.packets) throw Error("packet_cull", "exists in the model only", "--rtl-rays 0 leaves the gates alone");
+  if (parts.packets)
+    throw Error("packet_cull", "is not built for a tailored unit in gates", "--rtl-rays 0 leaves the gates alone");
   cull::MaskOptions masks;
   if (parts.r != 0) {
     masks.resolution = parts.r;

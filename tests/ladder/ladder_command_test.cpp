@@ -43,7 +43,7 @@ TEST_F(LadderCommandTest, all_engines_stand_in_one_table_and_units_are_compared)
   write_text(folder_.path() / "many.toml", "[unit]\ncontexts = 32\n");
   const Outcome outcome = ctusim("ladder " + kTrace + " few.toml many.toml --errors 10% --json ladder.json --out plot");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* part : {"estimate, counted before", "sampled 10%", "cycle", "rtl", "paired"})
+  for (const char* part : {"estimate again", "sampled 10%", "cycle", "rtl", "paired"})
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << "\n" << outcome.out;
   const json ladder = result("ladder.json");
   ASSERT_EQ(ladder["configs"].size(), 2u);
