@@ -5,7 +5,8 @@
 // Parameters fix its structure, straps (inputs that keep their value while it runs) the rest. What a design or a scene
 // does not need is not there: DESIGN none has neither cell_locate nor mask_test, HAS_SPILLS 0 no way from the stack to
 // memory, TABLE_CACHE 0 no table_fetch; with TABLE_CACHE 1 all tables lie in memory and none is on chip. PRIMITIVE_BOXES 0
-// has no primitive_cull, SPHERES 0 no sphere_test and PACKETS 0 no packet_cull, nor what only these read.
+// has no primitive_cull, SPHERES 0 no sphere_test and PACKETS 0 no packet_cull, nor what only these read; TREES 1 no table of
+// roots.
 //
 // The register files of the contexts lie between the stages: rays, best hits, times of the slab test, and keys or touched
 // cells. Nodes, leaves and stacks by context are in node_fetch, leaf_fetch and traversal_stack.
@@ -38,6 +39,7 @@ module ctu_unit #(
     parameter int PACKETS = 0,              // of rays, under way at once at most; 0: rays travel alone
     parameter int PACKET_ENTRIES = 16,      // PACKETS: of a packet at most, 1 .. 16
     parameter int MIN_PACKET_INTERVAL = 4,  // PACKETS
+    parameter int TREES = 1,                // of the image, 1 .. 256; a ray walks one of them
     parameter int STACK_ENTRIES = 16,       // of a context on chip, a power of two
     parameter bit HAS_SPILLS = 1'b1,
     parameter int MAX_SETS = 128,           // of each cache
@@ -64,7 +66,8 @@ module ctu_unit #(
     localparam int MSHR_BITS = $clog2(MAX_MSHRS + 1),
     localparam int HIT_LATENCY_BITS = $clog2(MAX_HIT_LATENCY + 1),
     localparam int CLIENTS = TABLE_CACHE ? 4 : HAS_SPILLS ? 3 : 2,
-    localparam int PACKET_BITS = PACKETS <= 2 ? 1 : $clog2(PACKETS)
+    localparam int PACKET_BITS = PACKETS <= 2 ? 1 : $clog2(PACKETS),
+    localparam int TREE_BITS = TREES <= 2 ? 1 : $clog2(TREES)
 ) (
     input logic clk_i,
     input logic rst_i,
@@ -114,6 +117,7 @@ module ctu_unit #(
     input  logic [         31:0] ray_tmax_i,
     input  logic                 ray_any_hit_i,
     input  logic                 ray_closes_i,      // with PACKETS: it is the last one of its packet
+    input  logic [TREE_BITS-1:0] ray_tree_i,        // with TREES above 1: the number of its tree
     output logic                 ray_take_o,
     output logic [SLOT_BITS-1:0] ray_slot_o,
 
@@ -144,6 +148,9 @@ module ctu_unit #(
     input logic [          1:0] load_table_i,
     input logic [         27:0] load_row_i,
     input logic [LOAD_BITS-1:0] load_data_i,
+    input logic                 root_write_i,
+    input logic [TREE_BITS-1:0] root_tree_i,
+    input logic [         31:0] root_i,
 
     // A ray needs a row that ROWS leaves out: its hit is not to be used.
     output logic                 row_left_out_o,
@@ -328,6 +335,27 @@ module ctu_unit #(
       .read_data_o({locate_t0, stack_t0, sort_t0})
   );
 
+  // Roots by context, where there are several: written as ray_queue takes a ray; read as it leaves there or, where rays
+  // travel in packets, as it joins one.
+  logic [31:0] ray_root, context_root;
+  generate
+    if (TREES > 1) begin : g_roots
+      context_file #(
+          .WIDTH(32),
+          .SLOT_BITS(SLOT_BITS)
+      ) roots (
+          .clk_i,
+          .write_i(ray_take_o),
+          .write_slot_i(ray_slot_o),
+          .write_data_i(ray_root),
+          .read_slot_i(HAS_PACKETS ? join_slot : setup_slot),
+          .read_data_o(context_root)
+      );
+    end else begin : g_root
+      assign context_root = ray_root;
+    end
+  endgenerate
+
   logic queued_ready, queued_push, joining_ready, joining_push;
   logic [REF-1:0] queued;
   logic [SLOT_BITS+1:0] joining;
@@ -335,20 +363,26 @@ module ctu_unit #(
       .SLOT_BITS(SLOT_BITS),
       .LATENCY(RAY_SETUP_LATENCY),
       .MIN_INTERVAL(MIN_RAY_INTERVAL),
-      .PACKETS(HAS_PACKETS)
+      .PACKETS(HAS_PACKETS),
+      .TREES(TREES)
   ) ray_queue_stage (
       .clk_i,
       .rst_i,
       .contexts_i,
       .interval_i(ray_interval_i),
+      .root_write_i,
+      .root_tree_i,
+      .root_i,
       .ray_valid_i,
       .ray_origin_i,
       .ray_direction_i,
       .ray_tmin_i,
       .ray_tmax_i,
       .ray_closes_i,
+      .ray_tree_i,
       .ray_take_o,
       .ray_slot_o,
+      .ray_root_o(ray_root),
       .ray_zero_axes_o(ray_zero_axes),
       .ray_negative_axes_o(ray_negative_axes),
       .ray_kx_o(ray_kx),
@@ -372,6 +406,7 @@ module ctu_unit #(
       .setup_rcp_up_o(setup_rcp_up),
       .setup_sx_o(setup_sx),
       .setup_sy_o(setup_sy),
+      .setup_root_i(context_root),
       .activity_o(activity_o[4*`CTU_RAY_QUEUE+:4])
   );
 
@@ -505,7 +540,8 @@ module ctu_unit #(
           .LATENCY(PACKET_LATENCY),
           .MIN_INTERVAL(MIN_PACKET_INTERVAL),
           .BOX_BITS(BOX_BITS),
-          .DECODE_LATENCY(DECODE_LATENCY)
+          .DECODE_LATENCY(DECODE_LATENCY),
+          .TREES(TREES)
       ) packet_cull_stage (
           .clk_i,
           .rst_i,
@@ -535,6 +571,7 @@ module ctu_unit #(
           .ray_negative_axes_i(rays_read[(RAY_READS-1)*RAY+NEGATIVE_AXES+:3]),
           .ray_tmin_i(rays_read[(RAY_READS-1)*RAY+TMIN+:32]),
           .ray_tmax_i(bests_read[(BEST_READS-1)*128+96+:32]),
+          .ray_root_i(context_root),
           .boxes_slot_o(packet_boxes_slot),
           .boxes_i(node_boxes[BOXES_BITS*BOXES_READER+:BOXES_BITS]),
           .empty_i(packet_empty),

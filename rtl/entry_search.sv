@@ -5,7 +5,7 @@
 //           of it from the next cycle on
 //   twin    ctu::reference::EntrySearch and EntryList (model/reference/entry_search.h, entry_list.h)
 //
-// A search begins with the root, which is in no queue. Of a packet one node is under way at a time, so that what its
+// A search begins with the root of the packet's tree, which is in no queue. Of a packet one node is under way at a time, so that what its
 // search knows stands still from tested_i to answer_o. A queue is a ring in four banks, as no node has more than four
 // children; the list of entries is one word, into which a new one is inserted by comparing it with all of them at once.
 // Queue and list together never hold more than most_entries_i.
@@ -13,6 +13,7 @@ module entry_search #(
     parameter int PACKET_BITS = 3,
     parameter int ENTRIES = 8,      // of a packet at most, 1 .. 16
     parameter int LATENCY = 1,      // any from 0
+    parameter int TREES = 1,        // with 1 the root is 0
     localparam int PACKETS = 1 << PACKET_BITS,
     localparam int COUNT_BITS = 5
 ) (
@@ -25,6 +26,7 @@ module entry_search #(
     input logic                   begin_i,
     input logic [PACKET_BITS-1:0] begin_packet_i,
     input logic [           31:0] begin_t_i,
+    input logic [           31:0] begin_root_i,
 
     // The node that a packet is asked about next.
     input  logic [PACKET_BITS-1:0] ask_packet_i,
@@ -61,10 +63,24 @@ module entry_search #(
   assign entries_o = list_q[entries_packet_i];
   assign count_o = count_q[count_packet_i];
 
+  logic [31:0] ask_root, tested_root;
+  generate
+    if (TREES > 1) begin : g_roots
+      logic [31:0] roots_q[PACKETS];
+      always_ff @(posedge clk_i) if (begin_i) roots_q[begin_packet_i] <= begin_root_i;
+      assign ask_root = roots_q[ask_packet_i];
+      assign tested_root = roots_q[tested_packet_i];
+    end else begin : g_root
+      assign ask_root = 32'd0;
+      assign tested_root = 32'd0;
+      wire unused_root = &{1'b0, begin_root_i};
+    end
+  endgenerate
+
   // The heads of two queues: of the packet that asks, and of the one whose answer is sought.
   logic [4*64-1:0] ask_heads, tested_heads;
   wire [PLACE_BITS-1:0] ask_head = PLACE_BITS'(head_q[ask_packet_i]);
-  assign ask_node_o = at_root_q[ask_packet_i] ? 32'd0 : ask_heads[64*32'(ask_head[1:0])+:32];
+  assign ask_node_o = at_root_q[ask_packet_i] ? ask_root : ask_heads[64*32'(ask_head[1:0])+:32];
 
   // The answer: the node becomes an entry, or its children take its place.
   wire at_root = at_root_q[tested_packet_i];
@@ -72,7 +88,7 @@ module entry_search #(
   wire [PLACE_BITS:0] tail = tail_q[tested_packet_i];
   wire [PLACE_BITS:0] queued = tail - head;
   wire [COUNT_BITS-1:0] count = count_q[tested_packet_i];
-  wire [63:0] node = at_root ? {begins_q[tested_packet_i], 32'd0} : tested_heads[64*32'(head[1:0])+:64];
+  wire [63:0] node = at_root ? {begins_q[tested_packet_i], tested_root} : tested_heads[64*32'(head[1:0])+:64];
   wire [64*ENTRIES-1:0] list = list_q[tested_packet_i];
   wire unused_references = &{1'b0, list};
   logic [5:0] places;

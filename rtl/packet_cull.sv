@@ -27,6 +27,7 @@ module packet_cull #(
     parameter int MIN_INTERVAL = 4,
     parameter int BOX_BITS = 32,       // of a coordinate of boxes_i: 32, or 16, 12, 8
     parameter int DECODE_LATENCY = 5,
+    parameter int TREES = 1,           // of the image; all rays of a packet walk one
     localparam int PACKET_BITS = PACKETS <= 2 ? 1 : $clog2(PACKETS),
     localparam int BOXES_BITS = BOX_BITS == 32 ? 768 : 128 + 24 * BOX_BITS
 ) (
@@ -63,6 +64,7 @@ module packet_cull #(
     input  logic [          2:0] ray_negative_axes_i,
     input  logic [         31:0] ray_tmin_i,
     input  logic [         31:0] ray_tmax_i,
+    input  logic [         31:0] ray_root_i,           // of its tree
 
     // The node at the entrance: its boxes as node_fetch holds them, and which lanes have no child.
     output logic [ SLOT_BITS-1:0] boxes_slot_o,
@@ -138,6 +140,19 @@ module packet_cull #(
     if (opens) filling_packet_q <= packet;
     if (ray_joins) last_slot_q <= ray_slot_o;
   end
+
+  // A packet walks the tree of its first ray.
+  logic [31:0] root;
+  generate
+    if (TREES > 1) begin : g_roots
+      logic [31:0] root_q;
+      assign root = opens ? ray_root_i : root_q;
+      always_ff @(posedge clk_i) root_q <= root;
+    end else begin : g_root
+      assign root = 32'd0;
+      wire unused_root = &{1'b0, ray_root_i};
+    end
+  endgenerate
 
   logic [`CTU_PACKET_BITS-1:0] joined_q, joined, bounds;
   packet_join join_bounds (
@@ -373,7 +388,8 @@ module packet_cull #(
   entry_search #(
       .PACKET_BITS(PACKET_BITS),
       .ENTRIES(ENTRIES),
-      .LATENCY(LATENCY - COMPARISONS)
+      .LATENCY(LATENCY - COMPARISONS),
+      .TREES(TREES)
   ) search (
       .clk_i,
       .rst_i,
@@ -381,6 +397,7 @@ module packet_cull #(
       .begin_i(closed),
       .begin_packet_i(packet),
       .begin_t_i(whole[`CTU_PACKET_BEGINS+:32]),
+      .begin_root_i(root),
       .ask_packet_i(asking_packet),
       .ask_node_o(asked_node),
       .tested_i(tested),

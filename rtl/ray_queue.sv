@@ -2,7 +2,7 @@
 // the root). A ray that the unit does not accept goes straight to the result as a miss.
 //
 //   in   freed         contexts that result_queue has emptied
-//   out  to_scheduler  the root, for each ray
+//   out  to_scheduler  the root of its tree, for each ray
 //   out  to_result     rays that visit nothing
 //   out  to_packets    with PACKETS instead of to_scheduler: each ray that is valid or the last one of its packet
 //   latency interval_i - 1 + LATENCY, one ray each interval_i cycles
@@ -12,6 +12,9 @@
 // The host holds the next ray with ray_valid_i until ray_take_o. In that cycle its context's registers are written at
 // ray_slot_o: of the ray, what the host gives and the signs and axes of its direction (ray_*_o); of the best hit,
 // t = tmax, u = v = 0, no primitive. The quotients are written when a valid ray leaves (setup_*_o).
+//
+// With TREES above 1 a ray names its tree by number. The roots lie in a table, filled before rays come; a ray's root
+// (ray_root_o) is read as it is taken and kept with its registers. With one tree there is no table, and its root is 0.
 //
 // Arithmetic: 1 / d of each axis rounded down and up, +0 where d is zero; d[kx] / d[kz] and d[ky] / d[kz] to nearest.
 // These five divisions are given to as many dividers as MIN_INTERVAL needs, in the last cycles that the ray keeps the
@@ -23,7 +26,9 @@ module ray_queue #(
     parameter int SLOT_BITS = 5,
     parameter int LATENCY = 20,
     parameter int MIN_INTERVAL = 3,
-    parameter bit PACKETS = 1'b0  // rays travel in packets
+    parameter bit PACKETS = 1'b0,  // rays travel in packets
+    parameter int TREES = 1,       // of the image, 1 .. 256
+    localparam int TREE_BITS = TREES <= 2 ? 1 : $clog2(TREES)
 ) (
     input logic clk_i,
     input logic rst_i,
@@ -32,6 +37,11 @@ module ray_queue #(
     input logic [SLOT_BITS:0] contexts_i,  // 1 .. 1 << SLOT_BITS
     input logic [        6:0] interval_i,  // at least MIN_INTERVAL; 5 are always enough
 
+    // The table of roots.
+    input logic                 root_write_i,
+    input logic [TREE_BITS-1:0] root_tree_i,
+    input logic [         31:0] root_i,
+
     // The feed. Vectors of three hold axis x in the lowest bits.
     input  logic                 ray_valid_i,
     input  logic [         95:0] ray_origin_i,
@@ -39,8 +49,10 @@ module ray_queue #(
     input  logic [         31:0] ray_tmin_i,
     input  logic [         31:0] ray_tmax_i,
     input  logic                 ray_closes_i,         // with PACKETS: it is the last one of its packet
+    input  logic [TREE_BITS-1:0] ray_tree_i,
     output logic                 ray_take_o,
     output logic [SLOT_BITS-1:0] ray_slot_o,
+    output logic [         31:0] ray_root_o,
     output logic [          2:0] ray_zero_axes_o,
     output logic [          2:0] ray_negative_axes_o,
     output logic [          1:0] ray_kx_o,
@@ -66,6 +78,7 @@ module ray_queue #(
     output logic [         95:0] setup_rcp_up_o,
     output logic [         31:0] setup_sx_o,
     output logic [         31:0] setup_sy_o,
+    input  logic [         31:0] setup_root_i,  // of the ray in setup_slot_o
 
     output logic [3:0] activity_o
 );
@@ -134,7 +147,7 @@ module ray_queue #(
   wire waits = ray_valid_i && can_enter;
   assign ray_take_o = waits && (fresh || head_q != tail_q);
   assign to_scheduler_push_o = !PACKETS && leaves && leaving_valid;
-  assign to_scheduler_data_o = {leaving_slot, 32'd0};
+  assign to_scheduler_data_o = {leaving_slot, setup_root_i};
   assign to_result_push_o = leaves && !leaving_valid;
   assign to_result_data_o = leaving_slot;
 
@@ -168,6 +181,22 @@ module ray_queue #(
   assign activity_o = !enable ? `CTU_OUTPUT_FULL :
                       leaves || ray_take_o || !empty ? `CTU_BUSY :
                       waits ? `CTU_NO_CONTEXT : `CTU_IDLE;
+
+  generate
+    if (TREES > 1) begin : g_roots
+      logic [31:0] roots_q[TREES];
+`ifdef CTU_MUTATE_RAY_FIRST_TREE
+      assign ray_root_o = roots_q[0];
+      wire unused_tree = &{1'b0, ray_tree_i};
+`else
+      assign ray_root_o = roots_q[ray_tree_i];
+`endif
+      always_ff @(posedge clk_i) if (root_write_i) roots_q[root_tree_i] <= root_i;
+    end else begin : g_root
+      assign ray_root_o = 32'd0;
+      wire unused_roots = &{1'b0, root_write_i, root_tree_i, root_i, ray_tree_i};
+    end
+  endgenerate
 
   // The ray at the entrance: the host's while it is taken, then the one kept here.
   logic [95:0] direction, direction_q;

@@ -88,8 +88,9 @@ int area_command(const AreaArgs& args) {
   require_box_bits(args.box_bits);
   area::AreaJob job;
   job.rtl = args.rtl.empty() ? CTU_RTL_FOLDER : args.rtl;
-  job.parameters = area::unit_parameters(config, masks_of(args, config.mask_test.design), job.rtl / (job.top + ".sv"),
-                                         {args.box_bits, args.primitive_boxes, args.spheres, args.packet_entries});
+  job.parameters =
+      area::unit_parameters(config, masks_of(args, config.mask_test.design), job.rtl / (job.top + ".sv"),
+                            {args.box_bits, args.primitive_boxes, args.spheres, args.packet_entries, args.trees});
   job.stages = split(args.stages);
   job.fpga = args.fpga;
   job.cache = args.cache;

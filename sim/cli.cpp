@@ -343,6 +343,7 @@ void add_area(CLI::App& app, Parsed& parsed) {
       ->add_option("--packet-entries", args.packet_entries,
                    "of rays in packets, each with so many entries at most; 0: rays travel alone")
       ->capture_default_str();
+  command->add_option("--trees", args.trees, "of an image with so many trees, 1..256")->capture_default_str();
   command->add_option("--stages", args.stages, "only these, by name: cell_locate,mask_test; none: all");
   command->add_flag("--fpga", args.fpga, "also LUT4, DSP and block RAM of the Lattice ECP5 family");
   command->add_option("--rtl", args.rtl, "folder of the RTL's sources; without it that of the source tree");

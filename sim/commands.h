@@ -152,6 +152,7 @@ struct AreaArgs {
   std::uint32_t box_bits = 32;                    ///< of a coordinate of the image's boxes
   bool primitive_boxes = false, spheres = false;  ///< the image has them
   int packet_entries = 0;                         ///< of a packet at most; 0: rays travel alone
+  int trees = 1;                                  ///< of the image
   std::string rtl, cache;                         ///< folders; empty: those of the source tree and of the user
   std::string yosys = "yosys";
   std::string stages;  ///< list; empty: all

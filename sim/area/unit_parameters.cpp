@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "model/accel/forest.h"
 #include "model/accel/image.h"
 #include "model/base/error.h"
 #include "model/cull/on_chip_tables.h"
@@ -135,6 +136,12 @@ void add_packets(Collector& all, const pipeline::UnitConfig& config, int entries
   all.set("MIN_PACKET_INTERVAL", config.packet_cull.interval);
 }
 
+void add_trees(Collector& all, int trees) {
+  if (trees < 1 || trees > static_cast<int>(accel::kMostTrees))
+    throw Error("--trees", fmt::format("{} trees in the image", trees), fmt::format("give 1 to {}", accel::kMostTrees));
+  all.set_if_there("TREES", trees, 1, "--trees");
+}
+
 }  // namespace
 
 RtlParameters unit_parameters(const pipeline::UnitConfig& config, const cull::MaskOptions& masks,
@@ -149,6 +156,7 @@ RtlParameters unit_parameters(const pipeline::UnitConfig& config, const cull::Ma
   if (image.box_bits != 32) all.set("DECODE_LATENCY", config.box_decode.latency);
   add_primitives(all, config, image);
   add_packets(all, config, image.packet_entries);
+  add_trees(all, image.trees);
   all.set("STACK_ENTRIES", static_cast<int>(std::bit_ceil(static_cast<unsigned>(config.stack.entries))));
   add_caches(all, config);
   add_latencies(all, config);

@@ -14,6 +14,7 @@ struct ImageParts {
   std::uint32_t box_bits = 32;  ///< of a coordinate of the nodes' boxes
   bool primitive_boxes = false, spheres = false;
   int packet_entries = 0;  ///< of a packet at most; 0: rays travel alone
+  int trees = 1;
 };
 
 /// Of masks count R, R_ray and the number of entries. Leaves have four primitives at most. Both caches have the sets,

@@ -1,7 +1,7 @@
 # The builds of the RTL unit. Those marked ALL are built with everything else, and the test suite's share of the grid runs
 # on them; the others by the target rtl_builds. Depths differ, so that no number is right by chance.
 # Those marked COVERAGE are built by rtl_coverage_builds once more, for `./dev coverage`.
-ctu_rtl_build(projection ALL SLOT_BITS 6 COVERAGE line)
+ctu_rtl_build(projection ALL SLOT_BITS 6 TREES 256 COVERAGE line)
 ctu_rtl_build(none ALL DESIGN none BOX_LATENCY 5 SORT_LATENCY 1 TRIANGLE_LATENCY 20 HIT_LATENCY 1
   RAY_SETUP_LATENCY 7 NODE_PORTS 2)
 ctu_rtl_build(mask-lut ALL DESIGN mask-lut UNITS 2 BANKS 2 PORTS 2 BOX_LATENCY 1 LOCATE_LATENCY 1 MASK_LATENCY 1
@@ -30,7 +30,7 @@ ctu_rtl_build(ray-boxes ALL DESIGN none PRIMITIVE_BOXES 1 MAX_LEAF_BYTES 512 CUL
 ctu_rtl_build(ray-boxes-spheres ALL PRIMITIVE_BOXES 1 SPHERES 1 CULL_UNITS 2 MAX_LEAF_BYTES 256 SLOT_BITS 4)
 ctu_rtl_build(spheres DESIGN comparators SPHERES 1 SPHERE_LATENCY 20 SLOT_BITS 3 LEAF_PORTS 2)
 # Rays in packets: the default unit with them; and with ray boxes in the leaves and boxes of reduced precision as well.
-ctu_rtl_build(packets ALL PACKETS 8 SLOT_BITS 6)
+ctu_rtl_build(packets ALL PACKETS 8 SLOT_BITS 6 TREES 256)
 ctu_rtl_build(packets-ray-boxes DESIGN mask-lut PRIMITIVE_BOXES 1 BOX_BITS 8 DECODE_LATENCY 2 PACKETS 3 PACKET_ENTRIES 5
   MIN_PACKET_INTERVAL 1 PACKET_LATENCY 3 MAX_SETS 128 MAX_WAYS 4 MAX_LEAF_BYTES 256 BOX_LATENCY 4 CULL_LATENCY 4
   TRIANGLE_LATENCY 13)

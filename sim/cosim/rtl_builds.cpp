@@ -147,6 +147,7 @@ std::string misfit(const RtlParameters& build, const pipeline::UnitConfig& confi
   misfits.same("child_sort.latency", build.sort_latency, config.child_sort.latency);
   check_primitives(misfits, build, config, work.image);
   check_packets(misfits, build, config, work.rays.packets());
+  misfits.at_most("trees", build.trees, static_cast<int>(work.image.trees()));
   misfits.same("triangle_test.latency", build.triangle_latency, config.triangle_test.latency);
   misfits.same("hit_update.latency", build.hit_latency, config.hit_update.latency);
   check_cache(misfits, "node_cache", build, config.node_cache, build.node_ports);
@@ -207,9 +208,6 @@ std::unique_ptr<RtlUnit> load_rtl_unit(const std::string& library) {
 
 std::unique_ptr<RtlUnit> make_rtl_unit(const pipeline::UnitConfig& config, const pipeline::Work& work,
                                        const std::string& folder) {
-  if (work.image.trees() > 1)
-    throw Error("--engine", "the unit in SystemVerilog begins every ray at one root, and this image has several trees",
-                "give --engine cycle, or record without --trees");
   std::string reasons;
   for (const std::string& library : rtl_libraries(folder)) {
     std::unique_ptr<RtlUnit> unit = load_if_current(library);

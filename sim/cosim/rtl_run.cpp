@@ -44,6 +44,8 @@ RtlRun::RtlRun(RtlUnit& unit, const pipeline::UnitConfig& config, const pipeline
       in_slot_(static_cast<std::size_t>(config.unit.contexts)) {
   unit_.configure(config, straps_of(config, work));
   load_tables(unit_, memory_.bytes(), config, work);
+  if (unit_.parameters().trees > 1)
+    for (std::uint32_t tree = 0; tree < work.image.trees(); ++tree) unit_.load_root(tree, work.image.root(tree));
   next_block();
 }
 
@@ -72,6 +74,7 @@ void RtlRun::begin() {
   UnitInputs inputs;
   inputs.ray = next_ray();
   inputs.ray_closes = ray_closes();
+  if (inputs.ray != nullptr) inputs.ray_tree = reference::tree_of(block_->trees, index_);
   inputs.stall_push = stalled(pipeline::Side::Push);
   inputs.stall_pop = stalled(pipeline::Side::Pop);
   inputs.memory_busy = !memory_.empty();

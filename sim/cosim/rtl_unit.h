@@ -35,6 +35,7 @@ struct RtlParameters {
   int packets = 0;          ///< of rays, under way at once, at most; 0: rays travel alone
   int packet_entries = 16;  ///< of a packet, at most
   int packet_interval = 4;  ///< at least
+  int trees = 1;            ///< of the image, at most; 1: no table of roots
   int max_leaf_bytes = 160;
   int slot_bits = 6;
   int stack_entries = 16;  ///< on chip, at most
@@ -70,6 +71,7 @@ struct LinkState {
 struct UnitInputs {
   const intersect::Ray* ray = nullptr;             ///< the next one, if there is one
   bool ray_closes = false;                         ///< it is the last one of its packet
+  std::uint32_t ray_tree = 0;                      ///< number of the tree that it walks
   std::uint64_t stall_push = 0, stall_pop = 0;     ///< bit link: refuses
   const pipeline::ClientAnswer* answer = nullptr;  ///< of memory, if one is ready
   std::span<const std::uint8_t> answer_line;
@@ -98,6 +100,9 @@ class RtlUnit {
   virtual void configure(const pipeline::UnitConfig& config, const ImageStraps& straps) = 0;
   /// Writes one row of one of the design's tables; before the run.
   virtual void load_row(int table, std::uint32_t row, std::span<const std::uint64_t> words) = 0;
+
+  /// Where a tree begins, in a build that has several; before the run.
+  virtual void load_root(std::uint32_t tree, std::uint32_t root) = 0;
 
   // A cycle, in this order: begin_cycle, asked, settle; then what it does is known, until end_cycle.
   virtual void begin_cycle(const UnitInputs& inputs) = 0;

@@ -27,6 +27,7 @@ module unit_bench #(
     parameter int PACKETS = 0,
     parameter int PACKET_ENTRIES = 16,
     parameter int MIN_PACKET_INTERVAL = 4,
+    parameter int TREES = 1,
     parameter int MAX_LEAF_BYTES = 160,
     parameter int STACK_ENTRIES = 64,
     parameter int HAS_SPILLS = 1,
@@ -87,6 +88,7 @@ module unit_bench #(
     input  logic [31:0] ray_tmax_i,
     input  logic        ray_any_hit_i,
     input  logic        ray_closes_i,
+    input  logic [ 7:0] ray_tree_i,
     output logic        ray_take_o,
     output logic [ 7:0] ray_slot_o,
 
@@ -114,6 +116,9 @@ module unit_bench #(
     input logic [  7:0] load_table_i,
     input logic [ 31:0] load_row_i,
     input logic [511:0] load_data_i,
+    input logic         root_write_i,
+    input logic [  7:0] root_tree_i,
+    input logic [ 31:0] root_i,
 
     output logic         row_left_out_o,
     output logic [  7:0] row_left_out_slot_o,
@@ -134,6 +139,7 @@ module unit_bench #(
   localparam int MSHR_BITS = $clog2(MAX_MSHRS + 1);
   localparam int CLIENTS = TABLE_CACHE != 0 ? 4 : HAS_SPILLS != 0 ? 3 : 2;
   localparam int PACKET_BITS = PACKETS <= 2 ? 1 : $clog2(PACKETS);
+  localparam int TREE_BITS = TREES <= 2 ? 1 : $clog2(TREES);
 
   logic [CLIENTS-1:0] asked;
   logic [CLIENTS*ADDRESS_BITS-1:0] address;
@@ -164,6 +170,7 @@ module unit_bench #(
       .PACKETS(PACKETS),
       .PACKET_ENTRIES(PACKET_ENTRIES),
       .MIN_PACKET_INTERVAL(MIN_PACKET_INTERVAL),
+      .TREES(TREES),
       .STACK_ENTRIES(STACK_ENTRIES),
       .HAS_SPILLS(HAS_SPILLS != 0),
       .MAX_SETS(MAX_SETS),
@@ -231,6 +238,7 @@ module unit_bench #(
       .ray_tmax_i,
       .ray_any_hit_i,
       .ray_closes_i,
+      .ray_tree_i(ray_tree_i[TREE_BITS-1:0]),
       .ray_take_o,
       .ray_slot_o(ray_slot_o[SLOT_BITS-1:0]),
       .return_valid_o,
@@ -255,6 +263,9 @@ module unit_bench #(
       .load_table_i(load_table_i[1:0]),
       .load_row_i(load_row_i[27:0]),
       .load_data_i(load_data_i[LOAD_BITS-1:0]),
+      .root_write_i,
+      .root_tree_i(root_tree_i[TREE_BITS-1:0]),
+      .root_i,
       .row_left_out_o,
       .row_left_out_slot_o(row_left_out_slot_o[SLOT_BITS-1:0]),
       .activity_o(activity),

@@ -74,10 +74,19 @@ class VerilatedUnit final : public RtlUnit {
     model_.load_valid_i = 0;
   }
 
+  void load_root(std::uint32_t tree, std::uint32_t root) override {
+    model_.root_write_i = 1;
+    model_.root_tree_i = static_cast<std::uint8_t>(tree);
+    model_.root_i = root;
+    clock();
+    model_.root_write_i = 0;
+  }
+
   void begin_cycle(const UnitInputs& inputs) override {
     model_.ray_valid_i = inputs.ray != nullptr;
     if (inputs.ray != nullptr) set_ray(*inputs.ray);
     model_.ray_closes_i = inputs.ray_closes;
+    model_.ray_tree_i = static_cast<std::uint8_t>(inputs.ray_tree);
     model_.stall_push_i = inputs.stall_push;
     model_.stall_pop_i = inputs.stall_pop;
     model_.mem_busy_i = inputs.memory_busy;

@@ -49,6 +49,7 @@ class Collector {
       file("stays", kStayBits);
     }
     if (shape_.primitive_boxes || shape_.spheres) file("directions", kDirectionBits);
+    if (shape_.trees > 1) file("roots", kReferenceBits);
   }
 
   void add_cache(const std::string& stage, const pipeline::CacheConfig& cache) {
@@ -92,6 +93,7 @@ class Collector {
   void add_rest() {
     const int slot = slot_bits(shape_);
     add_by_context("ray_queue", "freed contexts", slot);
+    if (shape_.trees > 1) add("ray_queue", "roots", product(shape_.trees, kReferenceBits));
     add_by_context("scheduler", "queues", 2 * slot);
     add_by_context("scheduler", "ready", kReadyBits);
     add_by_context("traversal_stack", "depths", 2 * kDepthBits);
@@ -102,6 +104,7 @@ class Collector {
       add("packet_cull", "packets",
           product(shape_.config.packet_cull.packets,
                   bounds + shape_.packet_rays * slot + 2 * shape_.packet_entries * entry));
+      if (shape_.trees > 1) add("packet_cull", "roots", product(shape_.config.packet_cull.packets, kReferenceBits));
     }
     for (const LinkBits& link : links_of(shape_))
       add("link", link.name, 2 * static_cast<std::uint64_t>(link.bits + 1), Keeping::Registers);  // and which are there

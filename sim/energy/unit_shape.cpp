@@ -34,6 +34,7 @@ UnitShape unit_shape(const pipeline::UnitConfig& config, const accel::Image& ima
   shape.packet_rays = packet_rays;
   shape.packet_entries = packet_rays > 0 ? packet_entries : 0;
   shape.depth = image.depth;
+  shape.trees = static_cast<int>(image.trees());
   set_config(shape, config, tester);
   return shape;
 }

@@ -24,6 +24,7 @@ struct UnitShape {
   int depth = 0;                            ///< nodes on the longest path of the tree
   bool spills = true;                       ///< some ray may need more than stack.entries
   int packet_rays = 0, packet_entries = 0;  ///< 0: rays travel alone
+  int trees = 1;
 
   bool culls() const { return config.mask_test.design != cull::Design::None; }
   bool compares() const { return config.mask_test.design == cull::Design::Comparators; }

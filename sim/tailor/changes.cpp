@@ -79,7 +79,8 @@ std::vector<std::string> missing_parts(const UnitParts& parts, const UnitConfig&
         "enough. Any trace still gets its true hits, with more visits");
   if (!parts.spheres) lines.push_back("sphere_test: no scene has spheres");
   if (!parts.primitive_boxes) lines.push_back("primitive_cull: no leaf has a box beside its primitives");
-  if (!parts.packets) lines.push_back("packet_cull: no rays travel in packets");
+  if (parts.packet_entries == 0) lines.push_back("packet_cull: no rays travel in packets");
+  if (parts.trees == 1) lines.push_back("the table of roots in ray_queue: all rays walk one tree");
   if (parts.box_bits == 32) lines.push_back("box_decode: all boxes are binary32");
   if (!parts.spills)
     lines.push_back(fmt::format("spills of traversal_stack: no ray of these trees can hold more than {} entries",

@@ -42,21 +42,25 @@ void run(const std::string& command, const fs::path& log) {
 
 }  // namespace
 
-std::string gate_build_line(const std::string& name, const pipeline::UnitConfig& config, const UnitParts& parts) {
-  if (parts.packets)
-    throw Error("packet_cull", "is not built for a tailored unit in gates", "--rtl-rays 0 leaves the gates alone");
+area::RtlParameters gate_parameters(const pipeline::UnitConfig& config, const UnitParts& parts) {
   cull::MaskOptions masks;
   if (parts.r != 0) {
     masks.resolution = parts.r;
     masks.ray_resolution = parts.r_ray;
     masks.entries = parts.entries;
   }
-  const fs::path top = fs::path(CTU_RTL_FOLDER) / "ctu_unit.sv";
-  const auto parameters = area::unit_parameters(
-      config, masks, top, {static_cast<std::uint32_t>(parts.box_bits), parts.primitive_boxes, parts.spheres});
+  return area::unit_parameters(config, masks, fs::path(CTU_RTL_FOLDER) / "ctu_unit.sv",
+                               {.box_bits = static_cast<std::uint32_t>(parts.box_bits),
+                                .primitive_boxes = parts.primitive_boxes,
+                                .spheres = parts.spheres,
+                                .packet_entries = parts.packet_entries,
+                                .trees = parts.trees});
+}
+
+std::string gate_build_line(const std::string& name, const pipeline::UnitConfig& config, const UnitParts& parts) {
   std::string line = fmt::format("ctu_rtl_build({}", name);
   const auto add = [&](const std::string& key, const auto& value) { line += fmt::format(" {} {}", key, value); };
-  for (const auto& [key, value] : parameters) {
+  for (const auto& [key, value] : gate_parameters(config, parts)) {
     if (key == "DESIGN")
       add(key, cull::to_string(config.mask_test.design));
     else if (key == "ROWS")

@@ -6,13 +6,16 @@
 #include <string>
 
 #include "model/pipeline/unit_config.h"
-#include "sim/energy/unit_shape.h"
+#include "sim/area/yosys.h"
 #include "sim/tailor/unit_parts.h"
 
 namespace ctu::tailor {
 
-/// `ctu_rtl_build(NAME PARAMETER value ...)`, no larger than the configuration and its parts need. Throws Error when
+/// The parameters of the RTL that make this unit, no larger than the configuration and its parts need. Throws Error when
 /// the RTL does not have what they ask for.
+area::RtlParameters gate_parameters(const pipeline::UnitConfig& config, const UnitParts& parts);
+
+/// The same as `ctu_rtl_build(NAME PARAMETER value ...)`.
 std::string gate_build_line(const std::string& name, const pipeline::UnitConfig& config, const UnitParts& parts);
 
 /// The folder with the library of that line, made by cmake and verilator unless it is there; minutes. Throws Error when

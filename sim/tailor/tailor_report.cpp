@@ -7,9 +7,9 @@
 
 #include "model/base/parallel.h"
 #include "sim/area/area_report.h"
-#include "sim/area/unit_parameters.h"
 #include "sim/config_file.h"
 #include "sim/energy/cost_json.h"
+#include "sim/tailor/gate_build.h"
 
 namespace ctu::tailor {
 namespace {
@@ -101,17 +101,9 @@ void synthesise(TailorResult& result, const pipeline::UnitConfig& start) {
   job.rtl = CTU_RTL_FOLDER;
   job.threads = available_threads();
   job.on_stage = [](const std::string& stage) { fmt::print(stderr, "synthesis: {}\n", stage); };
-  cull::MaskOptions masks;
-  if (result.parts.r != 0) {
-    masks.resolution = result.parts.r;
-    masks.ray_resolution = result.parts.r_ray;
-    masks.entries = result.parts.entries;
-  }
   const energy::EnergyTable& table = energy::EnergyTable::standard();
   const auto replace = [&](const pipeline::UnitConfig& config, std::vector<RunRecord>& records) {
-    job.parameters = area::unit_parameters(
-        config, masks, job.rtl / (job.top + ".sv"),
-        {static_cast<std::uint32_t>(result.parts.box_bits), result.parts.primitive_boxes, result.parts.spheres});
+    job.parameters = gate_parameters(config, result.parts);
     const double found = area::area_of(job).total.gate_equivalents;
     for (RunRecord& record : records) {
       record.cost.gate_equivalents = found;

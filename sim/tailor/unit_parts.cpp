@@ -16,7 +16,8 @@ template <class Parts, class Visit>
 void for_each_part(Parts& parts, const Visit& visit) {
   visit("spheres", parts.spheres);
   visit("primitive_boxes", parts.primitive_boxes);
-  visit("packets", parts.packets);
+  visit("packet_entries", parts.packet_entries);
+  visit("trees", parts.trees);
   visit("spills", parts.spills);
   visit("box_bits", parts.box_bits);
   visit("r", parts.r);
@@ -42,7 +43,8 @@ UnitParts parts_of(const energy::UnitShape& shape) {
   UnitParts parts;
   parts.spheres = shape.spheres;
   parts.primitive_boxes = shape.primitive_boxes;
-  parts.packets = shape.packet_rays > 0;
+  parts.packet_entries = shape.packet_entries;
+  parts.trees = shape.trees;
   parts.spills = shape.spills;
   parts.box_bits = static_cast<int>(shape.box_bits);
   parts.r = shape.culls() ? shape.resolution : 0;
@@ -60,9 +62,11 @@ UnitParts joined(const UnitParts& a, const UnitParts& b, const std::string& what
   if (a.box_bits != b.box_bits)
     refuse(fmt::format("has boxes of {} bits, and another trace has {}", b.box_bits, a.box_bits));
   if (a.primitive_boxes != b.primitive_boxes) refuse("and another trace differ in boxes beside primitives");
+  if ((a.packet_entries == 0) != (b.packet_entries == 0)) refuse("and another trace differ in rays in packets");
   UnitParts both = a;
   both.spheres |= b.spheres;
-  both.packets |= b.packets;
+  both.packet_entries = std::max(a.packet_entries, b.packet_entries);
+  both.trees = std::max(a.trees, b.trees);
   both.spills |= b.spills;
   both.entries = std::max(a.entries, b.entries);
   both.leaf_bytes = std::max(a.leaf_bytes, b.leaf_bytes);
@@ -103,7 +107,13 @@ void require_parts(const UnitParts& built, const energy::UnitShape& needed, cons
     refuse("primitive_cull", "its leaves have a box beside every primitive");
   if (!wanted.primitive_boxes && built.primitive_boxes)
     refuse("leaves without boxes", "the unit reads a box beside every primitive");
-  if (wanted.packets && !built.packets) refuse("packet_cull", "its rays travel in packets");
+  if (wanted.packet_entries > built.packet_entries)
+    refuse(built.packet_entries == 0 ? "packet_cull" : "more entries of a packet in packet_cull",
+           fmt::format("its rays travel in packets of up to {} entries", wanted.packet_entries));
+  if (wanted.packet_entries == 0 && built.packet_entries > 0)
+    refuse("rays that begin alone", "the unit takes them in packets");
+  if (wanted.trees > built.trees)
+    refuse("a larger table of roots in ray_queue", fmt::format("{} trees, it has {}", wanted.trees, built.trees));
   if (wanted.box_bits != built.box_bits)
     refuse(wanted.box_bits < 32 ? "box_decode" : "boxes of binary32",
            fmt::format("its boxes have {} bits a coordinate, those of the unit {}", wanted.box_bits, built.box_bits));

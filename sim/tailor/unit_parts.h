@@ -16,7 +16,8 @@ namespace ctu::tailor {
 struct UnitParts {
   bool spheres = false;          ///< sphere_test
   bool primitive_boxes = false;  ///< primitive_cull
-  bool packets = false;          ///< packet_cull
+  int packet_entries = 0;        ///< of packet_cull, for a packet; 0: there is none
+  int trees = 1;                 ///< whose roots ray_queue has; 1: no table of them
   bool spills = false;           ///< the stack's way to memory
   int box_bits = 32;             ///< below 32: box_decode
   int r = 0, r_ray = 0;          ///< of the mask test; 0: there is none

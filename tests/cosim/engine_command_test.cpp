@@ -46,6 +46,20 @@ TEST_F(EngineCommandTest, rays_in_packets_run_on_the_build_that_has_packet_cull)
   }
 }
 
+TEST_F(EngineCommandTest, rays_that_walk_local_trees_run_in_gates) {
+  ASSERT_EQ(
+      ctusim("record 'gen:hair-ball?strands=50&seed=7' -o trees.ctut --size 16x16 --rays shadow --trees 2").exit_code,
+      0);
+  for (const std::string engine : {"rtl", "both"}) {
+    const Outcome outcome = ctusim("run trees.ctut --engine " + engine);
+    EXPECT_EQ(outcome.exit_code, 0) << engine << "\n" << outcome.out << outcome.err;
+    EXPECT_NE(outcome.out.find("saved by local trees"), std::string::npos) << outcome.out;
+    const Outcome refused = ctusim("run trees.ctut --set mask_test.design=none --engine " + engine);
+    EXPECT_EQ(refused.exit_code, 2) << engine << "\n" << refused.out;
+    EXPECT_NE(refused.err.find("trees up to 1 instead of"), std::string::npos) << refused.err;
+  }
+}
+
 TEST_F(EngineCommandTest, leaves_that_the_unit_does_not_keep_whole_are_refused) {
   const std::string scene = "record 'gen:hair-ball?strands=50&seed=7' -o large.ctut --size 4x4 --rays primary ";
   // Nothing is split, so leaves of eight triangles are the rule; and two triangles of 128 bytes are 256.

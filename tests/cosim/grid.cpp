@@ -34,18 +34,26 @@ struct Totals {
   std::uint64_t runs = 0, rays = 0, cycles = 0, handshakes = 0, compared = 0, differences = 0;
 };
 
+/// Empty where rays travel alone in one tree.
+std::string ways_of(const GridConfig& config) {
+  std::string text;
+  if (config.packets.any())
+    text += fmt::format(" packets {} entries {}", config.packets.size, config.packets.most_entries);
+  if (config.trees > 1) text += fmt::format(" trees {}", config.trees);
+  return text;
+}
+
 /// Worlds by trace and masks: many configurations share them.
 class Worlds {
  public:
-  test::World& get(const std::string& trace, const RtlParameters& build, int rays,
-                   const reference::PacketPlan& packets) {
+  test::World& get(const std::string& trace, const RtlParameters& build, int rays, const GridConfig& config) {
     const bool from_outside = build.rows == cull::TableRows::Reachable;  // only these have rows
     const int leaf_bytes = build.primitive_boxes ? build.max_leaf_bytes : 0;
-    auto& world = worlds_[fmt::format("{} {} {} {} {} {} {} {} {} {} {}", trace, static_cast<int>(build.design),
+    auto& world = worlds_[fmt::format("{} {} {} {} {} {} {} {} {} {}", trace, static_cast<int>(build.design),
                                       build.resolution, build.ray_resolution, build.entries, build.box_bits,
-                                      from_outside, leaf_bytes, build.spheres, packets.size, packets.most_entries)];
+                                      from_outside, leaf_bytes, build.spheres, ways_of(config))];
     if (world) return *world;
-    world = make_grid_world(trace, build, rays, packets);
+    world = make_grid_world(trace, build, rays, config.packets, config.trees);
     if (from_outside)
       world = std::make_unique<test::World>(world->tree(), build.design, rays_from_outside(*world), mask_options(build),
                                             build.box_bits, build.primitive_boxes);
@@ -55,11 +63,6 @@ class Worlds {
  private:
   std::map<std::string, std::unique_ptr<test::World>> worlds_;
 };
-
-/// Empty where rays travel alone.
-std::string text_of(const reference::PacketPlan& packets) {
-  return packets.any() ? fmt::format(" packets {} entries {}", packets.size, packets.most_entries) : std::string();
-}
 
 /// The twins in lock step over one world.
 LockStepResult run(const GridConfig& config, const std::string& trace, RtlUnit& unit, test::World& world,
@@ -75,7 +78,7 @@ LockStepResult run(const GridConfig& config, const std::string& trace, RtlUnit& 
   const LockStepResult result = run_lock_step(unit, unit_configuration, model_work, rtl_work, options);
   const bool agree = !result.difference && result.rtl_wrong_hits == 0 && result.model.wrong_hits == 0;
   fmt::print("{:<18} {:<9} {:>6} {:>9} {:>11} {:>5}  {}{}{}\n", config.build, trace, result.model.rays, result.cycles,
-             result.handshakes, agree ? 0 : 1, config.settings, text_of(config.packets),
+             result.handshakes, agree ? 0 : 1, config.settings, ways_of(config),
              config.stall_seed != 0 ? " stalled at random" : "");
   if (result.difference) fmt::print("  {}\n", to_string(*result.difference));
   if (result.rtl_wrong_hits + result.model.wrong_hits != 0)
@@ -120,10 +123,10 @@ int run_grid(const Arguments& arguments) {
     ++configs;
     const std::string hash = sim::config_hash(unit_config(unit->parameters(), config.settings));
     for (const std::string& trace : grid_traces()) {
-      test::World& world = worlds.get(trace, unit->parameters(), arguments.rays, config.packets);
+      test::World& world = worlds.get(trace, unit->parameters(), arguments.rays, config);
       if (world.rays() == 0) continue;  // shadow rays begin on surfaces, where no reachable row serves
       const LockStepResult result = run(config, trace, *unit, world, totals);
-      const std::string key = fmt::format("{} {}{}{},{},{}", hash, config.build, text_of(config.packets),
+      const std::string key = fmt::format("{} {}{}{},{},{}", hash, config.build, ways_of(config),
                                           config.stall_seed == 0 ? "" : fmt::format(" stalls {}", config.stall_seed),
                                           trace, result.model.rays);
       judge(arguments, baseline, key, result, totals);

@@ -47,6 +47,9 @@ const std::vector<GridConfig>& grid_configs() {
       {"projection", "stack.entries=3 stack.push_width=3 stack.spill_batch=2", 20},
       {"projection", "stack.entries=8 stack.push_width=2 stack.spill_batch=8 unit.contexts=64", 21, true},
       {"projection", "ray_setup.interval=9 result.interval=30 triangle_test.interval=5", 22},
+      // Rays that walk one of several trees.
+      {"projection", "", 0, true, {}, 5},
+      {"projection", "unit.contexts=6 ray_setup.interval=4", 23, false, {}, 64},
       // Another depth of everything, and the designs of the mask test.
       {"none", "", 0, true},
       {"none", "unit.contexts=3", 30, true},
@@ -141,6 +144,7 @@ const std::vector<GridConfig>& grid_configs() {
        false,
        {64, 8}},
       {"packets", "unit.contexts=16 node_cache.bytes=0 leaf_cache.bytes=0 result.interval=20", 72, false, {16, 1}},
+      {"packets", "unit.contexts=20 packet_cull.packets=3", 74, true, {8, 4}, 3},
       {"packets-ray-boxes", "unit.contexts=16 node_cache.bytes=4096 leaf_cache.bytes=2048", 0, false, {4, 5}},
       {"packets-ray-boxes",
        "unit.contexts=16 packet_cull.packets=2 packet_cull.interval=2 node_cache.bytes=128 node_cache.ways=1 "

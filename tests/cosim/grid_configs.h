@@ -17,6 +17,7 @@ struct GridConfig {
   std::uint64_t stall_seed = 0;  ///< not 0: every link refuses at random
   bool quick = false;            ///< part of the share that the test suite runs
   reference::PacketPlan packets{};
+  int trees = 1;  ///< of the image; each ray, or packet, walks one of them
 };
 
 const std::vector<GridConfig>& grid_configs();

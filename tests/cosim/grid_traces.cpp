@@ -5,6 +5,7 @@
 #include <random>
 
 #include "model/accel/build.h"
+#include "model/accel/forest.h"
 #include "model/base/error.h"
 #include "model/scene/load.h"
 #include "tests/cosim/grid_configs.h"
@@ -164,16 +165,42 @@ void gather(std::vector<Ray>& rays, int size) {
   }
 }
 
-std::unique_ptr<test::World> make_world(const RtlParameters& build, accel::Bvh4 tree, std::vector<Ray> rays,
-                                        const reference::PacketPlan& packets) {
-  if (packets.any()) gather(rays, packets.size);
+/// How the rays go about it.
+struct Ways {
+  reference::PacketPlan packets;
+  int trees;
+};
+
+/// Runs of rays that walk the same tree, which packets need, and some that change it from ray to ray.
+std::vector<std::uint8_t> drawn_trees(int trees, int packet_size) {
+  std::mt19937_64 random(oracle::test_seed() + 1);
+  std::vector<std::uint8_t> drawn;
+  while (drawn.size() < 97) {
+    const std::uint64_t run = random() % 4 == 0 ? 1 : 1 + random() % static_cast<std::uint64_t>(packet_size);
+    drawn.insert(drawn.end(), run, static_cast<std::uint8_t>(random() % static_cast<unsigned>(trees)));
+  }
+  return drawn;
+}
+
+/// Puts trees over the same mesh, of leaves of other sizes, behind the first one.
+void add_trees(accel::Bvh4& first, const scene::Mesh& mesh, int trees) {
+  for (int i = 1; i < trees; ++i)
+    accel::append_tree(first,
+                       accel::build(mesh, {.max_leaf_triangles = 1 + i % 4, .triangle_cost = 0.5f * (1 + i % 3)}));
+}
+
+std::unique_ptr<test::World> make_world(const RtlParameters& build, accel::Bvh4 tree, const scene::Mesh& mesh,
+                                        std::vector<Ray> rays, const Ways& ways) {
+  if (ways.packets.any()) gather(rays, ways.packets.size);
+  add_trees(tree, mesh, ways.trees);
   auto world = std::make_unique<test::World>(std::move(tree), build.design, rays, mask_options(build), build.box_bits,
                                              build.primitive_boxes);
-  if (packets.any()) world->travel_in(packets);
+  if (ways.trees > 1) world->walk_trees(drawn_trees(ways.trees, ways.packets.any() ? 2 * ways.packets.size : 4));
+  if (ways.packets.any()) world->travel_in(ways.packets);
   return world;
 }
 
-std::unique_ptr<test::World> make_hostile(const RtlParameters& build, int count, const reference::PacketPlan& packets) {
+std::unique_ptr<test::World> make_hostile(const RtlParameters& build, int count, const Ways& ways) {
   test::ClosedMesh cube = test::closed_cube(4);
   accel::Bvh4 tree = tree_for(build, cube.mesh);
   RaySource source(tree, cube.mesh);
@@ -183,20 +210,21 @@ std::unique_ptr<test::World> make_hostile(const RtlParameters& build, int count,
     rays.push_back(i % 2 == 0
                        ? hostile_ray(source, i / 2)
                        : aimed.next(test::kFamilies[static_cast<std::size_t>(i / 2) % std::size(test::kFamilies)]));
-  return make_world(build, std::move(tree), std::move(rays), packets);
+  return make_world(build, std::move(tree), cube.mesh, std::move(rays), ways);
 }
 
 }  // namespace
 
 std::unique_ptr<test::World> make_grid_world(const std::string& trace, const RtlParameters& build, int rays,
-                                             const reference::PacketPlan& packets) {
-  if (trace == "hostile") return make_hostile(build, rays, packets);
+                                             const reference::PacketPlan& packets, int trees) {
+  const Ways ways{packets, trees};
+  if (trace == "hostile") return make_hostile(build, rays, ways);
   const char* const scene = trace == "interior" ? "gen:foliage?twigs=40" : "gen:hair-ball?strands=200";
   scene::Mesh mesh = scene::load(scene).mesh;
   accel::Bvh4 tree = tree_for(build, mesh);
   RaySource source(tree, mesh);
   std::vector<Ray> list = rays_of(trace == "single" ? "hair" : trace, source, trace == "single" ? 1 : rays);
-  return make_world(build, std::move(tree), std::move(list), packets);
+  return make_world(build, std::move(tree), mesh, std::move(list), ways);
 }
 
 }  // namespace ctu::cosim

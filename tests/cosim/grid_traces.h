@@ -17,9 +17,10 @@ inline const std::vector<std::string>& grid_traces() {
 }
 
 /// A world that the build can run: its design, masks, boxes, leaves and kinds of primitives; `rays`: about how many.
-/// Rays travel in `packets`, if there are any: then most of those of a packet keep together.
+/// Rays travel in `packets`, if there are any: then most of those of a packet keep together; of several `trees`, each
+/// over the whole scene, they walk now one and now another.
 /// Same name and parameters: the same world.
 std::unique_ptr<test::World> make_grid_world(const std::string& trace, const RtlParameters& build, int rays,
-                                             const reference::PacketPlan& packets = {});
+                                             const reference::PacketPlan& packets = {}, int trees = 1);
 
 }  // namespace ctu::cosim

@@ -37,6 +37,7 @@ module entry_search_properties #(
       .begin_i,
       .begin_packet_i,
       .begin_t_i,
+      .begin_root_i(32'd0),
       .ask_packet_i(1'b0),
       .ask_node_o(node),
       .tested_i,

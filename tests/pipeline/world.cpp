@@ -165,13 +165,12 @@ void World::travel_in(const reference::PacketPlan& packets) {
 
 void World::walk_trees(const std::vector<std::uint8_t>& trees) {
   const std::vector<accel::PrimitiveBox> boxes = reference::leaf_boxes(tree_);
-  const reference::Traversal traversal(tree_, &masks_, tester_, image_.layout.primitive_boxes ? &boxes : nullptr,
-                                       cull::RayBoxRule::OncePerLeaf);
+  const reference::Traversal culled = traversal(boxes);
   for (auto& block : blocks_) {
     auto walking = std::make_shared<reference::RayBlock>(*block);
     for (std::size_t i = 0; i < block->rays.size(); ++i)
       walking->trees.push_back({trees[(block->first_ray + i) % trees.size()], 1, 2});
-    const std::vector<intersect::Hit> found = reference::walk_block(traversal, {}, *walking);
+    const std::vector<intersect::Hit> found = reference::walk_block(culled, {}, *walking);
     reference::expect_any_hits_found(walking->rays, found, walking->expected);
     block = std::move(walking);
   }

@@ -311,6 +311,20 @@ TEST(UnitParameters, OfRaysInPacketsOnlyWhereTheyTravelSo) {
     EXPECT_NE(problem_of([&] { value(entries, "PACKETS"); }).find("--packet-entries"), std::string::npos);
 }
 
+TEST(UnitParameters, HaveATableOfRootsOnlyForSeveralTrees) {
+  const ScratchFolder folder;
+  const auto top = folder.path() / "ctu_unit.sv";
+  write_text(top, "module ctu_unit #(parameter int TREES = 1) (); endmodule\n");
+  const auto trees = [&](int count) {
+    for (const auto& [parameter, set] : unit_parameters({}, {}, top, {.trees = count}))
+      if (parameter == "TREES") return set;
+    return std::int64_t{-1};
+  };
+  EXPECT_EQ(trees(1), 1);
+  EXPECT_EQ(trees(9), 9);
+  for (const int count : {0, 257}) EXPECT_NE(problem_of([&] { trees(count); }).find("--trees"), std::string::npos);
+}
+
 /// The program, on a unit with the parameters of the real one and a single stage.
 TEST(AreaCommand, PrintsTablesAndJsonAndRefusesWithCodeTwo) {
   const ScratchFolder folder;

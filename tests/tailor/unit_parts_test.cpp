@@ -43,7 +43,12 @@ TEST(UnitParts, each_missing_part_is_named) {
   const std::pair<const char*, std::function<void(UnitShape&)>> needs[] = {
       {"sphere_test", [](UnitShape& s) { s.spheres = true; }},
       {"primitive_cull", [](UnitShape& s) { s.primitive_boxes = true; }},
-      {"packet_cull", [](UnitShape& s) { s.packet_rays = 16; }},
+      {"packet_cull",
+       [](UnitShape& s) {
+         s.packet_rays = 16;
+         s.packet_entries = 8;
+       }},
+      {"a larger table of roots", [](UnitShape& s) { s.trees = 5; }},
       {"box_decode", [](UnitShape& s) { s.box_bits = 16; }},
       {"spills of traversal_stack", [](UnitShape& s) { s.spills = true; }},
       {"a larger leaf buffer", [](UnitShape& s) { s.leaf_bytes = 320; }},
@@ -57,6 +62,17 @@ TEST(UnitParts, each_missing_part_is_named) {
               std::string::npos)
         << part << ": " << refusal(built, other);
   }
+}
+
+TEST(UnitParts, rays_alone_and_rays_in_packets_need_units_of_their_own) {
+  UnitShape packets = plain(), more = plain();
+  packets.packet_rays = more.packet_rays = 16;
+  packets.packet_entries = 4;
+  more.packet_entries = 9;
+  EXPECT_NE(refusal(parts_of(packets), plain()).find("rays that begin alone"), std::string::npos);
+  EXPECT_THROW(joined(parts_of(packets), parts_of(plain()), "alone.ctut"), Error);
+  EXPECT_NE(refusal(parts_of(packets), more).find("more entries of a packet"), std::string::npos);
+  EXPECT_EQ(refusal(joined(parts_of(packets), parts_of(more), "more.ctut"), more), "");
 }
 
 TEST(UnitParts, a_unit_without_culling_takes_traces_of_any_masks) {

@@ -27,7 +27,7 @@ endfunction()
 packet_cull_model(PacketCull)
 packet_cull_model(PacketCullParallel -GMIN_INTERVAL=1 -GLATENCY=1 -GPACKETS=1 -GENTRIES=1)
 packet_cull_model(PacketCullCompact -GMIN_INTERVAL=2 -GLATENCY=25 -GPACKETS=5 -GENTRIES=16 -GBOX_BITS=12
-  -GDECODE_LATENCY=2)
+  -GDECODE_LATENCY=2 -GTREES=3)
 packet_cull_model(MutantPacketDoubts -GMIN_INTERVAL=3 -GLATENCY=2 -DCTU_MUTATE_PACKET_DOUBTS)
 ctu_test(test_rtl_packet_cull
   SOURCES packet_cull_test.cpp
@@ -37,6 +37,6 @@ ctu_test(test_rtl_packet_cull
 # What it is made of is checked with it. The other stages that have more to do where rays travel in packets are checked in
 # the whole unit's structures, and the stack's second source of entries here.
 rtl_check(packet_cull SOURCES ${packet_cull_sources} VARIANT compact
-  PARAMETERS BOX_BITS=8 MIN_INTERVAL=1 LATENCY=1 PACKETS=3 ENTRIES=5)
+  PARAMETERS BOX_BITS=8 MIN_INTERVAL=1 LATENCY=1 PACKETS=3 ENTRIES=5 TREES=2)
 rtl_check(traversal_stack SOURCES ${traversal_stack_sources} VARIANT packets
   PARAMETERS MAX_ENTRIES=4 PACKETS=2 PACKET_ENTRIES=5)

@@ -13,6 +13,7 @@
 #include "VPacketCullCompact.h"
 #include "VPacketCullParallel.h"
 #include "model/accel/build.h"
+#include "model/accel/forest.h"
 #include "model/numeric/round.h"
 #include "model/scene/load.h"
 #include "tests/rtl/stages/stage_run.h"
@@ -92,6 +93,7 @@ class Twin {
     model_.ray_negative_axes_i = ray.negative_axes;
     model_.ray_tmin_i = bits(ray.ray.tmin);
     model_.ray_tmax_i = bits(ray.ray.tmax);
+    model_.ray_root_i = unit_.state().contexts[model_.ray_slot_o].root;
   }
 
   /// The nodes that the contexts hold, as node_fetch has them.
@@ -198,9 +200,14 @@ std::vector<intersect::Ray> bundles(const accel::Bvh4& tree, int count, int bund
   return rays;
 }
 
-test::World world_of(const PacketPlan& plan, std::uint32_t box_bits = accel::kFullBoxBits) {
-  const accel::Bvh4 tree = accel::build(scene::load("gen:hair-ball?strands=150").mesh, {});
-  test::World world(tree, cull::Design::None, bundles(tree, 400, plan.size), {}, box_bits);
+test::World world_of(const PacketPlan& plan, std::uint32_t box_bits = accel::kFullBoxBits, bool several_trees = false) {
+  const scene::Mesh mesh = scene::load("gen:hair-ball?strands=150").mesh;
+  accel::Bvh4 tree = accel::build(mesh, {});
+  const std::vector<intersect::Ray> rays = bundles(tree, 400, plan.size);
+  if (several_trees)
+    for (const int leaf : {1, 3}) accel::append_tree(tree, accel::build(mesh, {.max_leaf_triangles = leaf}));
+  test::World world(std::move(tree), cull::Design::None, rays, {}, box_bits);
+  if (several_trees) world.walk_trees(std::vector<std::uint8_t>{0, 0, 0, 0, 2, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1, 0, 1});
   world.travel_in(plan);
   return world;
 }
@@ -249,6 +256,10 @@ TEST(PacketCull, equals_the_model_with_two_lanes_and_boxes_of_reduced_precision)
   const test::World world = world_of({32, 16}, 12);
   expect_equal<VPacketCullCompact>(kCompact, world, 5, 2);
   expect_equal<VPacketCullCompact>(kCompact, world, 1, 3);
+}
+TEST(PacketCull, equals_the_model_when_packets_walk_several_trees) {
+  const test::World world = world_of({32, 16}, 12, true);
+  expect_equal<VPacketCullCompact>(kCompact, world, 5, 2);
 }
 
 TEST(PacketCullMutants, a_node_that_gives_way_to_two_children_in_doubt_is_caught) {

@@ -9,12 +9,12 @@ function(ray_queue_model name)
   set(ray_queue_models ${ray_queue_models} PARENT_SCOPE)
 endfunction()
 ray_queue_model(RayQueue)
-ray_queue_model(RayQueueParallel -GMIN_INTERVAL=1 -GLATENCY=1 -GSLOT_BITS=8)
+ray_queue_model(RayQueueParallel -GMIN_INTERVAL=1 -GLATENCY=1 -GSLOT_BITS=8 -GTREES=3)
 ray_queue_model(RayQueueShort -GMIN_INTERVAL=2 -GLATENCY=6 -GSLOT_BITS=2)
 ray_queue_model(RayQueueSerial -GMIN_INTERVAL=7 -GLATENCY=41 -GSLOT_BITS=3)
-foreach(name IN ITEMS RayFreedFirst RayEmptyRange RayTiedAxes RayUnswappedAxes)
+foreach(name IN ITEMS RayFreedFirst RayEmptyRange RayTiedAxes RayUnswappedAxes RayFirstTree)
   rtl_mutation_define(define ${name})
-  ray_queue_model(Mutant${name} -GMIN_INTERVAL=5 -GLATENCY=2 -GSLOT_BITS=3 ${define})
+  ray_queue_model(Mutant${name} -GMIN_INTERVAL=5 -GLATENCY=2 -GSLOT_BITS=3 -GTREES=3 ${define})
 endforeach()
 ctu_test(test_rtl_ray_queue
   SOURCES ray_queue_test.cpp ../../intersect/hostile_boxes.cpp
@@ -22,3 +22,4 @@ ctu_test(test_rtl_ray_queue
   LABEL property)
 
 rtl_check(ray_queue SOURCES ${ray_queue_sources} WORD_LEVEL)
+rtl_check(ray_queue SOURCES ${ray_queue_sources} VARIANT trees PARAMETERS TREES=5)

@@ -2,6 +2,7 @@
 // intersect::prepare_ray on rays meant to break it.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -11,6 +12,7 @@
 #include <sstream>
 
 #include "VMutantRayEmptyRange.h"
+#include "VMutantRayFirstTree.h"
 #include "VMutantRayFreedFirst.h"
 #include "VMutantRayTiedAxes.h"
 #include "VMutantRayUnswappedAxes.h"
@@ -18,7 +20,10 @@
 #include "VRayQueueParallel.h"
 #include "VRayQueueSerial.h"
 #include "VRayQueueShort.h"
+#include "model/accel/build.h"
+#include "model/accel/forest.h"
 #include "model/numeric/round.h"
+#include "model/scene/load.h"
 #include "tests/intersect/hostile_boxes.h"
 #include "tests/oracle/seed.h"
 #include "tests/rtl/stages/stage_run.h"
@@ -31,9 +36,21 @@ using intersect::Ray;
 using numeric::bits;
 using pipeline::UnitConfig;
 
-const test::World& world() {
-  static const test::World made("gen:hair-ball?strands=60", cull::Design::None, 400);
-  return made;
+constexpr int kTrees = 3;  ///< of the models that have several
+
+/// Rays that walk each one of so many trees.
+test::World make_world(int trees) {
+  const scene::Mesh mesh = scene::load("gen:hair-ball?strands=60").mesh;
+  accel::Bvh4 tree = accel::build(mesh, {});
+  for (int i = 1; i < trees; ++i) accel::append_tree(tree, accel::build(mesh, {.max_leaf_triangles = i}));
+  test::World world(std::move(tree), cull::Design::None, 400);
+  if (trees > 1) world.walk_trees({0, 2, 1, 1, 2});
+  return world;
+}
+
+const test::World& world_of(int trees) {
+  static const test::World one = make_world(1), several = make_world(kTrees);
+  return trees == 1 ? one : several;
 }
 
 /// A Verilated ray_queue; differences from what should be are collected.
@@ -54,6 +71,29 @@ class QueueTwin {
     }
     model_.ray_tmin_i = bits(ray.tmin);
     model_.ray_tmax_i = bits(ray.tmax);
+  }
+  void offer_tree(std::uint32_t tree) { model_.ray_tree_i = static_cast<std::uint8_t>(tree); }
+
+  /// Before rays come.
+  void load_roots(const accel::Image& image) {
+    for (std::uint32_t tree = 0; tree < image.trees(); ++tree) {
+      model_.root_write_i = 1;
+      model_.root_tree_i = static_cast<std::uint8_t>(tree);
+      model_.root_i = image.root(tree);
+      clock(model_);
+    }
+    model_.root_write_i = 0;
+  }
+
+  /// A cycle up to its end, in which the file of roots by context answers as well.
+  void eval() {
+    model_.eval();
+    model_.setup_root_i = root_of_[model_.setup_slot_o];
+    model_.eval();
+  }
+  void end_cycle() {
+    if (model_.ray_take_o) root_of_[model_.ray_slot_o] = model_.ray_root_o;
+    clock(model_);
   }
 
   /// What is written as the ray is taken.
@@ -83,30 +123,41 @@ class QueueTwin {
 
  private:
   std::ostringstream difference_;
+  std::array<std::uint32_t, 256> root_of_{};
   VerilatedContext context_;
   Model model_{from_noise(context_)};
 };
 
 /// Ends at the first difference, which it returns.
 template <class Model>
-std::string difference_in_unit(const UnitConfig& config, std::uint64_t stall_seed) {
+std::string difference_in_unit(const UnitConfig& config, std::uint64_t stall_seed, int trees) {
+  const test::World& world = world_of(trees);
   std::vector<Ray> rays;
-  for (const auto& block : world().blocks()) rays.insert(rays.end(), block->rays.begin(), block->rays.end());
-  StageRun run(world(), config, stall_seed);
+  std::vector<std::uint32_t> tree_of;
+  for (const auto& block : world.blocks())
+    for (std::size_t i = 0; i < block->rays.size(); ++i) {
+      rays.push_back(block->rays[i]);
+      tree_of.push_back(reference::tree_of(block->trees, i));
+    }
+  StageRun run(world, config, stall_seed);
   auto& stage = run.unit().stages().ray_queue;
   auto& state = run.unit().state();
   QueueTwin<Model> twin(config.unit.contexts, config.ray_setup.interval);
+  twin.load_roots(world.image());
   Model& model = twin.model();
   std::uint64_t taken = 0;
   run.each_cycle([&](Cycle now) {
     if (!twin.difference().empty()) return;
     model.ray_valid_i = taken < rays.size();
-    if (taken < rays.size()) twin.offer(rays[taken]);
+    if (taken < rays.size()) {
+      twin.offer(rays[taken]);
+      twin.offer_tree(tree_of[taken]);
+    }
     model.freed_valid_i = stage.freed.valid;
     model.freed_data_i = static_cast<std::uint8_t>(stage.freed.token.slot);
     model.to_scheduler_ready_i = stage.to_scheduler.ready;
     model.to_result_ready_i = stage.to_result.ready;
-    model.eval();
+    twin.eval();
 
     twin.same("ray_take", model.ray_take_o, stage.rays_taken() != taken);
     twin.same("freed_pop", model.freed_pop_o, stage.freed.popped);
@@ -118,6 +169,7 @@ std::string difference_in_unit(const UnitConfig& config, std::uint64_t stall_see
       const pipeline::Context& context = state.contexts[model.ray_slot_o];
       twin.same("the ray in the context taken", context.ray, taken);
       twin.same("the cycle it was taken", context.entered, now);
+      twin.same("its root", model.ray_root_o, context.root);
       twin.compare_axes(state.source.registers(model.ray_slot_o).ray);
       taken = stage.rays_taken();
     }
@@ -128,14 +180,14 @@ std::string difference_in_unit(const UnitConfig& config, std::uint64_t stall_see
       twin.compare_quotients(state.source.registers(token.slot).ray);
     }
     if (stage.to_result.pushed) twin.same("to_result", model.to_result_data_o, stage.to_result.token.slot);
-    clock(model);
+    twin.end_cycle();
   });
   EXPECT_TRUE(taken == rays.size() || !twin.difference().empty()) << taken << " rays taken";
   return twin.difference();
 }
 
 UnitConfig config_of(int contexts, int latency, int interval) {
-  UnitConfig config = world().config();
+  UnitConfig config = world_of(1).config();
   config.unit.contexts = contexts;
   config.ray_setup = {.latency = latency, .interval = interval};
   config.memory.model = pipeline::MemoryModel::Ideal;
@@ -145,11 +197,11 @@ UnitConfig config_of(int contexts, int latency, int interval) {
 }
 
 template <class Model>
-void expect_equal(int contexts, int latency, int interval) {
+void expect_equal(int contexts, int latency, int interval, int trees = 1) {
   for (const std::uint64_t stall_seed : {std::uint64_t{0}, oracle::test_seed()}) {
-    SCOPED_TRACE(testing::Message() << contexts << " contexts, latency " << latency << ", interval " << interval
-                                    << ", stall seed " << stall_seed);
-    EXPECT_EQ(difference_in_unit<Model>(config_of(contexts, latency, interval), stall_seed), "");
+    SCOPED_TRACE(testing::Message() << contexts << " contexts, latency " << latency << ", interval " << interval << ", "
+                                    << trees << " trees, stall seed " << stall_seed);
+    EXPECT_EQ(difference_in_unit<Model>(config_of(contexts, latency, interval), stall_seed, trees), "");
   }
 }
 
@@ -163,6 +215,10 @@ TEST(RayQueue, does_so_with_five_dividers_and_one_register) {
   expect_equal<VRayQueueParallel>(256, 1, 1);
   expect_equal<VRayQueueParallel>(4, 1, 1);
   expect_equal<VRayQueueParallel>(30, 1, 2);
+}
+TEST(RayQueue, sends_each_ray_to_the_root_of_its_tree) {
+  expect_equal<VRayQueueParallel>(30, 1, 2, kTrees);
+  expect_equal<VRayQueueParallel>(4, 1, 1, kTrees);
 }
 TEST(RayQueue, does_so_with_three_dividers) {
   expect_equal<VRayQueueShort>(4, 6, 2);
@@ -240,7 +296,7 @@ HostileRun run_hostile(int contexts, int interval, std::uint64_t count) {
     if (!to_free.empty()) model.freed_data_i = static_cast<std::uint8_t>(to_free.back());
     model.to_scheduler_ready_i = random() % 8 != 0;
     model.to_result_ready_i = random() % 8 != 0;
-    model.eval();
+    twin.eval();
     Ray concerned = ray;
     if (model.freed_valid_i) to_free.pop_back();
     if (model.to_scheduler_push_o || model.to_result_push_o) {
@@ -261,7 +317,7 @@ HostileRun run_hostile(int contexts, int interval, std::uint64_t count) {
       inside[model.ray_slot_o] = ray;
       ray = rays.next();
     }
-    clock(model);
+    twin.end_cycle();
     if (twin.difference().empty()) continue;
     run.difference = twin.difference() + show(concerned);
     break;
@@ -291,9 +347,13 @@ void expect_caught_as_it_prepares() {
 }
 
 TEST(RayQueueMutants, contexts_given_again_before_new_ones_are_caught) {
-  const std::string difference = difference_in_unit<VMutantRayFreedFirst>(config_of(8, 2, 100), 0);
+  const std::string difference = difference_in_unit<VMutantRayFreedFirst>(config_of(8, 2, 100), 0, kTrees);
   EXPECT_NE(difference, "");
   std::cout << difference << '\n';
+}
+TEST(RayQueueMutants, all_rays_in_the_first_tree_are_caught) {
+  const std::string difference = difference_in_unit<VMutantRayFirstTree>(config_of(8, 2, 5), 0, kTrees);
+  EXPECT_NE(difference.find("its root"), std::string::npos) << difference;
 }
 TEST(RayQueueMutants, a_ray_of_one_point_refused_is_caught) { expect_caught_as_it_prepares<VMutantRayEmptyRange>(); }
 TEST(RayQueueMutants, the_first_of_equal_components_chosen_is_caught) {
