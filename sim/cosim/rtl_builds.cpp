@@ -223,7 +223,7 @@ std::unique_ptr<RtlUnit> make_rtl_unit(const pipeline::UnitConfig& config, const
     throw Error(library_folder(folder), "no build of the RTL unit is there",
                 "install verilator and build: `./dev rtl`");
   throw Error("--engine", "no build of the RTL unit has this configuration:" + reasons,
-              "change the configuration, or add a build to sim/cosim/CMakeLists.txt");
+              "change the configuration, or add a build to sim/cosim/builds.cmake");
 }
 
 }  // namespace ctu::cosim

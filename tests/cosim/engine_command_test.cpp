@@ -47,9 +47,7 @@ TEST_F(EngineCommandTest, rays_in_packets_run_on_the_build_that_has_packet_cull)
 }
 
 TEST_F(EngineCommandTest, rays_that_walk_local_trees_run_in_gates) {
-  ASSERT_EQ(
-      ctusim("record 'gen:hair-ball?strands=50&seed=7' -o trees.ctut --size 16x16 --rays shadow --trees 2").exit_code,
-      0);
+  ASSERT_EQ(ctusim("record 'gen:foliage?twigs=40' -o trees.ctut --size 160x120 --rays shadow --trees 2").exit_code, 0);
   for (const std::string engine : {"rtl", "both"}) {
     const Outcome outcome = ctusim("run trees.ctut --engine " + engine);
     EXPECT_EQ(outcome.exit_code, 0) << engine << "\n" << outcome.out << outcome.err;

@@ -58,6 +58,14 @@ TEST(OnChipBits, go_with_contexts_caches_and_stack) {
   EXPECT_EQ(all.at("traversal_stack") - memory_bits(shallow).at("traversal_stack"), 32u * 8 * 64);
 }
 
+// ctusim area --trees 9
+TEST(OnChipBits, of_several_trees_are_their_roots_and_those_of_contexts) {
+  UnitShape shape = default_shape();
+  shape.trees = 9;
+  EXPECT_EQ(memory_bits(shape).at("context_file"), 80160u);
+  EXPECT_EQ(memory_bits(shape).at("ray_queue"), 448u);
+}
+
 TEST(OnChipBits, of_tables_in_memory_are_their_cache_and_the_rows_of_contexts) {
   UnitShape shape = default_shape();
   shape.config.table_cache.bytes = 4096;

@@ -236,7 +236,9 @@ void expect_equal(const Shape& shape, const test::World& world, int packets, int
     for (int i = 0; i < pipeline::kActivities; ++i) cycles_of[i] += compared.cycles_of[i];
   }
   EXPECT_GT(cycles_of[static_cast<int>(pipeline::Activity::OutputFull)], 0u);
-  if (packets == 1) EXPECT_GT(cycles_of[static_cast<int>(pipeline::Activity::NoPacket)], 100u);
+  if (packets == 1) {
+    EXPECT_GT(cycles_of[static_cast<int>(pipeline::Activity::NoPacket)], 100u);
+  }
 }
 
 TEST(PacketCull, equals_the_model_with_one_lane_in_packets_of_16) {
