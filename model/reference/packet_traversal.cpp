@@ -20,6 +20,7 @@ using cull::packet::Bounds;
 using cull::packet::Box;
 using cull::packet::Lines;
 using cull::packet::Reach;
+using cull::packet::Sphere;
 using cull::packet::Triangle;
 using intersect::kLanes;
 using intersect::Ray;
@@ -180,17 +181,19 @@ class PacketWalk {
       ++counts_.leaf_visits;
       const Asking asking(*this, group);
       for (int k = 0; k < count; ++k) {
-        const accel::LeafTriangle& t = bvh_.triangles[first + static_cast<std::uint32_t>(k)];
-        if (t.is_sphere()) continue;  // asked of each ray only
-        if (asking.all_miss(Triangle{{t.v0, t.v1, t.v2}}, counts_.triangle_questions, counts_.triangle_misses))
+        const accel::LeafTriangle& p = bvh_.triangles[first + static_cast<std::uint32_t>(k)];
+        const auto missed = [&](const auto& shape) {
+          return asking.all_miss(shape, counts_.primitive_questions, counts_.primitive_misses);
+        };
+        if (p.is_sphere() ? missed(Sphere{p.sphere().centre, p.sphere().radius}) : missed(Triangle{{p.v0, p.v1, p.v2}}))
           culled |= 1u << k;
       }
     }
     const auto skipped = static_cast<std::uint64_t>(std::popcount(culled)), members = group.members.size();
     const std::uint64_t tests = members * (static_cast<std::uint64_t>(count) - skipped);
-    counts_.triangle_tests += tests;
-    counts_.saved_triangle_tests += members * skipped;
-    if (!together) counts_.alone_triangle_tests += tests;
+    counts_.primitive_tests += tests;
+    counts_.saved_primitive_tests += members * skipped;
+    if (!together) counts_.alone_primitive_tests += tests;
     for (const std::size_t i : group.members) test_leaf(travellers_[i], first, count, culled);
   }
 
@@ -258,6 +261,7 @@ class PacketWalk {
    private:
     void show(const Box& box) const { walk_.observer_->box(place_, box); }
     void show(const Triangle& triangle) const { walk_.observer_->triangle(place_, triangle); }
+    void show(const Sphere& sphere) const { walk_.observer_->sphere(place_, sphere); }
 
     PacketWalk& walk_;
     const Part& part_;
@@ -287,14 +291,14 @@ PacketCounts& PacketCounts::operator+=(const PacketCounts& other) {
   leaf_visits += other.leaf_visits;
   box_questions += other.box_questions;
   box_misses += other.box_misses;
-  triangle_questions += other.triangle_questions;
-  triangle_misses += other.triangle_misses;
+  primitive_questions += other.primitive_questions;
+  primitive_misses += other.primitive_misses;
   node_tests += other.node_tests;
-  triangle_tests += other.triangle_tests;
+  primitive_tests += other.primitive_tests;
   alone_node_tests += other.alone_node_tests;
-  alone_triangle_tests += other.alone_triangle_tests;
+  alone_primitive_tests += other.alone_primitive_tests;
   saved_node_tests += other.saved_node_tests;
-  saved_triangle_tests += other.saved_triangle_tests;
+  saved_primitive_tests += other.saved_primitive_tests;
   box_tests += other.box_tests;
   saved_box_tests += other.saved_box_tests;
   return *this;

@@ -1,8 +1,8 @@
 // The untimed traversal of a packet: its rays go through the tree each in its own order, and those that have come to
 // the same node are asked about together first. What all of them miss, none is asked about.
 //
-// A ray visits exactly what it would visit alone, without the children and triangles that it misses in exact
-// arithmetic: so it finds the same hit, bit for bit, but for a near-miss (a triangle that only its rounded test
+// A ray visits exactly what it would visit alone, without the children and primitives that it misses in exact
+// arithmetic: so it finds the same hit, bit for bit, but for a near-miss (a primitive that only its rounded test
 // accepts), and what one ray visits does not depend on when the others come by.
 // Source: Boulos, Wald, Shirley, "Geometric and Arithmetic Culling Methods for Entire Ray Packets"; splitting:
 // section 7.
@@ -27,22 +27,22 @@ struct PacketOptions {
   bool splits = true;  ///< in two, where a subtree lies inside the packet, down to packets of kLeastPacket
 };
 
-/// A 4-wide test of a ray and a node, or a test of a ray and a triangle, counts one, as in Counts.
+/// A 4-wide test of a ray and a node, or a test of a ray and a primitive, counts one, as in Counts.
 struct PacketCounts {
   std::uint64_t rays = 0, packets = 0;
   std::uint64_t splits = 0;  ///< of packets that have come to a node
 
   std::uint64_t node_visits = 0, leaf_visits = 0;   ///< by packets; those of rays alone are not among them
   std::uint64_t box_questions = 0, box_misses = 0;  ///< to a packet about a child, and all-miss
-  std::uint64_t triangle_questions = 0, triangle_misses = 0;
+  std::uint64_t primitive_questions = 0, primitive_misses = 0;
 
-  std::uint64_t node_tests = 0, triangle_tests = 0;              ///< by single rays
-  std::uint64_t alone_node_tests = 0, alone_triangle_tests = 0;  ///< of these, by rays that have left their packet
-  std::uint64_t saved_node_tests = 0, saved_triangle_tests = 0;  ///< of rays for which a packet was asked
+  std::uint64_t node_tests = 0, primitive_tests = 0;              ///< by single rays
+  std::uint64_t alone_node_tests = 0, alone_primitive_tests = 0;  ///< of these, by rays that have left their packet
+  std::uint64_t saved_node_tests = 0, saved_primitive_tests = 0;  ///< of rays for which a packet was asked
   std::uint64_t box_tests = 0, saved_box_tests = 0;  ///< the same of single boxes: a node's that were (not) dropped
 
-  std::uint64_t questions() const { return box_questions + triangle_questions; }
-  std::uint64_t tests() const { return node_tests + triangle_tests; }
+  std::uint64_t questions() const { return box_questions + primitive_questions; }
+  std::uint64_t tests() const { return node_tests + primitive_tests; }
   PacketCounts& operator+=(const PacketCounts& other);
 };
 
@@ -60,6 +60,7 @@ class PacketObserver {
   virtual void begin_packet() = 0;
   virtual void box(const PacketPlace& place, const cull::packet::Box& box) = 0;
   virtual void triangle(const PacketPlace& place, const cull::packet::Triangle& triangle) = 0;
+  virtual void sphere(const PacketPlace& place, const cull::packet::Sphere& sphere) = 0;
 };
 
 /// Traces packet by packet; const after construction, so threads share it.

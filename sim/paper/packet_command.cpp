@@ -19,9 +19,9 @@ namespace ctu::sim {
 namespace {
 
 /// One of each kind: packets are asked about one by one in exact arithmetic.
-const std::vector<std::string> kScenes = {
-    "gen:hair-ball", "gen:curly-hair", "gen:straight-hair", "gen:tilted-quads", "gen:foliage", "gen:tetra", "bunny",
-    "sponza",        "kitchen"};
+const std::vector<std::string> kScenes = {"gen:hair-ball", "gen:curly-hair", "gen:straight-hair", "gen:tilted-quads",
+                                          "gen:foliage",   "gen:tetra",      "gen:balls",         "bunny",
+                                          "sponza",        "kitchen"};
 
 reference::Forming forming_named(const std::string& name) {
   if (const auto forming = reference::forming_from_string(name)) return *forming;
@@ -100,7 +100,7 @@ int paper_packets_command(const PaperPacketsArgs& args) {
   std::uint64_t wrong = 0;
   for (const ListedScene& listed : listed_scenes(scene_args)) {
     const Stopwatch watch;
-    const std::optional<scene::Scene> scene = load_listed(scene_args, listed, Primitives::Triangles);
+    const std::optional<scene::Scene> scene = load_listed(scene_args, listed);
     if (!scene) continue;
     const accel::Bvh4 bvh = accel::build(scene->mesh, rays_of(scene_args, sweeps.front().rays).build);
     for (paper::PacketSweep& sweep : sweeps) {

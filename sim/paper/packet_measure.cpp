@@ -23,6 +23,7 @@ using cull::packet::Lines;
 using cull::packet::Method;
 using cull::packet::Reach;
 using cull::packet::Scale;
+using cull::packet::Sphere;
 using cull::packet::Triangle;
 using intersect::Hit;
 using intersect::Ray;
@@ -54,6 +55,7 @@ class AllMethods : public reference::PacketObserver {
   void triangle(const PacketPlace& place, const Triangle& triangle) override {
     ask(place, triangle, result_.triangles);
   }
+  void sphere(const PacketPlace& place, const Sphere& sphere) override { ask(place, sphere, result_.spheres); }
 
  private:
   /// A part of the packet in both scales, and every method's bounds of it.
@@ -283,6 +285,7 @@ PacketResult& PacketResult::operator+=(const PacketResult& other) {
   single += other.single;
   boxes += other.boxes;
   triangles += other.triangles;
+  spheres += other.spheres;
   parts += other.parts;
   bloat += other.bloat;
   for (std::size_t m = 0; m < kPacketMethods; ++m) {
@@ -293,7 +296,7 @@ PacketResult& PacketResult::operator+=(const PacketResult& other) {
 }
 
 std::uint64_t PacketResult::wrong() const {
-  std::uint64_t sum = boxes.lost + triangles.lost;
+  std::uint64_t sum = boxes.lost + triangles.lost + spheres.lost;
   for (const PacketWork& one : work) sum += one.lost_hits;
   return sum;
 }

@@ -53,7 +53,7 @@ struct PacketBloat {
 struct PacketResult {
   std::uint64_t rays = 0;
   reference::Counts single;  ///< each ray alone
-  PacketFindings boxes, triangles;
+  PacketFindings boxes, triangles, spheres;
   std::uint64_t parts = 0;  ///< packets and parts of packets that were asked
   std::array<numeric::OperationCounts, kPacketMethods> building{};
   std::array<PacketWork, kPacketMethods> work{};

@@ -48,7 +48,8 @@ std::string findings_table(const std::vector<PacketRow>& rows, PacketFindings Pa
   Cells titles = with_methods({"scene", "rays", "questions", "exactly all-miss"});
   titles.insert(titles.end(), {"any of them", "lost"});
   MarkdownTable table(titles, 2);
-  for (const PacketRow& row : rows) add_findings(table, {row.scene, row.rays}, row.result.*findings);
+  for (const PacketRow& row : rows)
+    if ((row.result.*findings).questions > 0) add_findings(table, {row.scene, row.rays}, row.result.*findings);
   for (const auto& [kind, sum] : by_kind(rows)) add_findings(table, {"*all scenes*", kind}, sum.*findings);
   return table.text();
 }
@@ -64,7 +65,7 @@ void add_work(MarkdownTable& table, Cells cells, const PacketResult& result) {
   }
   const reference::PacketCounts& counts = result.work[1].counts;
   cells.push_back(percent(ratio(counts.tests(), result.single.intersections())));
-  cells.push_back(percent(ratio(counts.alone_node_tests + counts.alone_triangle_tests, counts.tests())));
+  cells.push_back(percent(ratio(counts.alone_node_tests + counts.alone_primitive_tests, counts.tests())));
   cells.push_back(fmt::format("{} / {} / {}", lost, near, ties));
   table.add(cells);
 }
@@ -147,8 +148,8 @@ std::string worked_table() {
 }  // namespace
 
 PacketShares shares_of(const reference::PacketCounts& counts) {
-  const std::uint64_t tests = counts.box_tests + counts.triangle_tests;
-  const std::uint64_t alone = tests + counts.saved_box_tests + counts.saved_triangle_tests;
+  const std::uint64_t tests = counts.box_tests + counts.primitive_tests;
+  const std::uint64_t alone = tests + counts.saved_box_tests + counts.saved_primitive_tests;
   return {ratio(tests, alone), ratio(counts.questions(), alone)};
 }
 
@@ -156,8 +157,10 @@ std::string packet_report(const std::vector<PacketRow>& rows, const std::vector<
   std::string text = "### The paper's worked numbers\n\n" + worked_table();
   text += "\n### Boxes: found, of what all rays miss exactly\n\n" + findings_table(rows, &PacketResult::boxes);
   text += "\n### Triangles: found, of what all rays miss exactly\n\n" + findings_table(rows, &PacketResult::triangles);
+  if (std::any_of(rows.begin(), rows.end(), [](const PacketRow& row) { return row.result.spheres.questions > 0; }))
+    text += "\n### Spheres: found, of what all rays miss exactly\n\n" + findings_table(rows, &PacketResult::spheres);
   text +=
-      "\n### Tests of one box or triangle that are left: of single rays / with the packets' own, of those of rays "
+      "\n### Tests of one box or primitive that are left: of single rays / with the packets' own, of those of rays "
       "alone\n\n" +
       work_table(rows);
   text += "\n### Sizes and ways to form packets (axis-interval, mean over scenes)\n\n" + sweep_table(sweeps);

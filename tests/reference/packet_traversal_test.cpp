@@ -133,8 +133,8 @@ TEST(PacketTraversal, a_ray_asks_for_each_test_once_itself_or_through_its_packet
     in_packets(world.bvh, rays, {.method = method}, {.size = 16, .window = 64, .forming = Forming::Direction}, counts);
     EXPECT_EQ(counts.rays, rays.size());
     EXPECT_EQ(counts.node_tests + counts.saved_node_tests, single.node_visits);
-    EXPECT_EQ(counts.triangle_tests + counts.saved_triangle_tests, single.triangle_tests);
-    EXPECT_GT(counts.saved_triangle_tests, 0u);
+    EXPECT_EQ(counts.primitive_tests + counts.saved_primitive_tests, single.triangle_tests);
+    EXPECT_GT(counts.saved_primitive_tests, 0u);
     EXPECT_GT(counts.saved_box_tests, counts.saved_node_tests);
     EXPECT_LE(counts.alone_node_tests, counts.node_tests);
     EXPECT_LE(counts.box_misses, counts.box_questions);
@@ -150,7 +150,7 @@ TEST(PacketTraversal, packets_that_do_not_cull_ask_nothing_and_save_nothing) {
   in_packets(world.bvh, rays, {.culls = false}, {}, counts);
   EXPECT_EQ(counts.questions(), 0u);
   EXPECT_EQ(counts.node_tests, single.node_visits);
-  EXPECT_EQ(counts.triangle_tests, single.triangle_tests);
+  EXPECT_EQ(counts.primitive_tests, single.triangle_tests);
 }
 
 TEST(PacketTraversal, a_packet_splits_where_a_subtree_lies_inside_of_it) {

@@ -11,7 +11,9 @@ namespace ctu::sim::paper {
 namespace {
 
 struct World {
-  scene::Scene scene = scene::load("gen:tilted-quads?quads=200&size=0.4");
+  explicit World(const std::string& name = "gen:tilted-quads?quads=200&size=0.4") : scene(scene::load(name)) {}
+
+  scene::Scene scene;
   accel::Bvh4 bvh = accel::build(scene.mesh, {});
 
   RaySample sample(traces::RayOptions::Rays kind) const {
@@ -42,8 +44,24 @@ TEST(PacketMeasure, methods_find_a_part_of_what_all_rays_miss_and_nothing_else) 
     }
     for (const PacketWork& work : result.work) {
       EXPECT_EQ(work.counts.node_tests + work.counts.saved_node_tests, result.single.node_visits);
-      EXPECT_EQ(work.counts.triangle_tests + work.counts.saved_triangle_tests, result.single.triangle_tests);
+      EXPECT_EQ(work.counts.primitive_tests + work.counts.saved_primitive_tests, result.single.triangle_tests);
     }
+  }
+}
+
+TEST(PacketMeasure, spheres_are_asked_of_whole_packets_too) {
+  const World world("gen:balls?depth=2");
+  for (const auto kind : {traces::RayOptions::Rays::Primary, traces::RayOptions::Rays::Diffuse}) {
+    SCOPED_TRACE(std::string(traces::to_string(kind)));
+    const PacketResult result = measure_packets(world.scene, world.bvh, world.sample(kind), {});
+    EXPECT_EQ(result.wrong(), 0u);
+    EXPECT_GT(result.spheres.all_miss, 10u);
+    EXPECT_LE(result.spheres.found_by_some, result.spheres.all_miss);
+    if (kind == traces::RayOptions::Rays::Primary) {  // bounces from small balls go every way
+      EXPECT_GT(result.spheres.found_by_some, result.spheres.all_miss / 4);
+    }
+    for (const PacketWork& work : result.work)
+      EXPECT_EQ(work.counts.primitive_tests + work.counts.saved_primitive_tests, result.single.triangle_tests);
   }
 }
 
