@@ -51,7 +51,7 @@ TEST_F(EngineCommandTest, rays_that_walk_local_trees_run_in_gates) {
   for (const std::string engine : {"rtl", "both"}) {
     const Outcome outcome = ctusim("run trees.ctut --engine " + engine);
     EXPECT_EQ(outcome.exit_code, 0) << engine << "\n" << outcome.out << outcome.err;
-    EXPECT_NE(outcome.out.find("saved by local trees"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("wrong hits              0"), std::string::npos) << outcome.out;
     const Outcome refused = ctusim("run trees.ctut --set mask_test.design=none --engine " + engine);
     EXPECT_EQ(refused.exit_code, 2) << engine << "\n" << refused.out;
     EXPECT_NE(refused.err.find("trees up to 1 instead of"), std::string::npos) << refused.err;
