@@ -43,7 +43,7 @@ function(ctu_library name)
 endfunction()
 
 # ctu_test(name SOURCES a.cpp ... DEPENDS ... LABEL unit|property|oracle|end-to-end [TIMEOUT seconds])
-# One GoogleTest program; every test of it is a ctest of its own, labelled.
+# One GoogleTest program, compiled with CTU_TEST_FLAGS of its folder; every test of it is a ctest of its own, labelled.
 function(ctu_test name)
   cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;DEPENDS" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -51,6 +51,7 @@ function(ctu_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ctu_options ${ARG_DEPENDS} GTest::gtest_main)
+  target_compile_options(${name} PRIVATE ${CTU_TEST_FLAGS})
   target_compile_definitions(${name} PRIVATE CTU_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
   gtest_discover_tests(${name} TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})

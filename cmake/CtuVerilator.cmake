@@ -45,7 +45,8 @@ function(ctu_verilator_coverage_runtime library)
 endfunction()
 
 # ctu_verilate(library PREFIX Vname TOP module SOURCES a.sv ... [ARGS -DX -GY=1 ...])
-# One model as a static library; `#include "Vname.h"`. All of its C++ is one translation unit.
+# One model as a static library; `#include "Vname.h"`. All of its C++ is one translation unit, compiled with
+# CTU_VERILATED_FLAGS of the folder that asks for it.
 function(ctu_verilate library)
   cmake_parse_arguments(ARG "" "PREFIX;TOP" "SOURCES;ARGS" ${ARGN})
   if(NOT TARGET ctu_verilated)
@@ -67,6 +68,6 @@ function(ctu_verilate library)
   add_dependencies(${library} ${library}_sources)
   add_dependencies(rtl_sources ${library}_sources)
   target_include_directories(${library} SYSTEM PUBLIC ${folder})
-  target_compile_options(${library} PRIVATE -w)
+  target_compile_options(${library} PRIVATE -w ${CTU_VERILATED_FLAGS})
   target_link_libraries(${library} PUBLIC ctu_verilated)
 endfunction()

@@ -3,7 +3,6 @@ set(box_decode_sources ${rtl}/box_decode_plane.sv ${rtl}/box_decode.sv)
 foreach(bits IN ITEMS 8 12 16)
   ctu_verilate(rtl_box_decode_${bits} PREFIX VBoxDecode${bits} TOP box_decode
     SOURCES ${keep_modules} ${rtl_float_sources} ${box_decode_sources} ARGS -GBITS=${bits} -GLATENCY=0)
-  target_compile_options(rtl_box_decode_${bits} PRIVATE -O1)
 endforeach()
 rtl_check(box_decode SOURCES ${rtl_float_sources} ${box_decode_sources})
 rtl_check(box_decode SOURCES ${rtl_float_sources} ${box_decode_sources} VARIANT 8 PARAMETERS BITS=8 LATENCY=1)
@@ -21,12 +20,10 @@ ctu_verilate(rtl_box_test PREFIX VBoxTest TOP box_test SOURCES ${box_test_stage_
 foreach(latency IN ITEMS 1 6 25)
   ctu_verilate(rtl_box_test_outer_${latency} PREFIX VBoxTestOuter${latency} TOP box_test
     SOURCES ${box_test_stage_sources} ARGS --x-initial unique -GINNER=0 -GLATENCY=${latency})
-  target_compile_options(rtl_box_test_outer_${latency} PRIVATE -O1)
 endforeach()
 # Boxes decoded in front of the test.
 ctu_verilate(rtl_box_test_compact PREFIX VBoxTestCompact TOP box_test
   SOURCES ${box_test_stage_sources} ARGS --x-initial unique -GINNER=0 -GLATENCY=3 -GBOX_BITS=12 -GDECODE_LATENCY=2)
-target_compile_options(rtl_box_test_compact PRIVATE -O1)
 rtl_mutants(box_test_mutants TOP box_test NAMES BoxAxesSwapped BoxSlotEarly SOURCES ${box_test_stage_sources}
   ARGS --x-initial unique -GINNER=0 -GLATENCY=6)
 ctu_test(test_rtl_box_test

@@ -14,9 +14,6 @@ ctu_verilate(rtl_fetch_two_ports PREFIX VFetchTwoPorts TOP fetch_bench SOURCES $
   ARGS ${compact} -GLINE_BYTES=64 -GPORTS=2 -GMASK_BITS=6)
 ctu_verilate(rtl_fetch_four_ports PREFIX VFetchFourPorts TOP fetch_bench SOURCES ${fetch_bench_sources}
   ARGS ${compact} ${four_ports})
-foreach(library IN ITEMS rtl_fetch_one_port rtl_fetch_two_ports rtl_fetch_four_ports)
-  target_compile_options(${library} PRIVATE -O1)
-endforeach()
 rtl_mutants(fetch_mutants TOP fetch_bench
   NAMES FetchTwoRequests FetchFirstInFirstOut FetchHighestRegister FetchTurnStays FetchReadsUncounted
   SOURCES ${fetch_bench_sources} ARGS ${compact} ${four_ports} -GMAX_SETS=4 -GMAX_WAYS=4)

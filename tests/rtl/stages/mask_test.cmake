@@ -9,7 +9,6 @@ function(mask_test_model name)
   ctu_verilate(rtl_mask_test_${name} PREFIX VMaskTest${name} TOP mask_test
     SOURCES ${mask_test_headers} ${rtl_flow_sources} ${mask_test_sources} ${rtl}/mask_test.sv
     ARGS --x-initial unique ${parameters})
-  target_compile_options(rtl_mask_test_${name} PRIVATE -O1)
   list(APPEND mask_test_libraries rtl_mask_test_${name})
   set(mask_test_libraries ${mask_test_libraries} PARENT_SCOPE)
 endfunction()
@@ -41,7 +40,6 @@ list(APPEND mask_test_libraries ${mask_test_mutants})
 ctu_verilate(rtl_fold_bench PREFIX VFoldBench TOP fold_bench
   SOURCES ${mask_test_headers} ${rtl}/key_fold.svh ${rtl}/mirror_fold.sv ${rtl}/reverse_fold.sv
     ${CMAKE_CURRENT_SOURCE_DIR}/fold_bench.sv)
-target_compile_options(rtl_fold_bench PRIVATE -O1)
 ctu_test(test_rtl_key_fold SOURCES key_fold_test.cpp DEPENDS ctu_cull ctu_oracle rtl_fold_bench LABEL property)
 
 ctu_test(test_rtl_mask_test

@@ -6,7 +6,6 @@ set(packet_lane_bench ${keep_modules} ${CMAKE_CURRENT_SOURCE_DIR}/packet_lane_be
   ${packet_lane_sources})
 ctu_verilate(rtl_packet_lane PREFIX VPacketLane TOP packet_lane_bench SOURCES ${packet_lane_bench}
   ARGS --x-initial unique)
-target_compile_options(rtl_packet_lane PRIVATE -O1)
 rtl_mutants(packet_lane_mutants TOP packet_lane_bench NAMES PacketOriginsSwapped SOURCES ${packet_lane_bench}
   ARGS --x-initial unique)
 ctu_test(test_rtl_packet_lane
@@ -20,7 +19,6 @@ set(packet_cull_sources ${rtl}/tokens.svh ${rtl_float_sources} ${packet_lane_sou
 function(packet_cull_model name)
   ctu_verilate(rtl_${name} PREFIX V${name} TOP packet_cull SOURCES ${keep_modules} ${packet_cull_sources} ARGS
     --x-initial unique ${ARGN})
-  target_compile_options(rtl_${name} PRIVATE -O1)
   list(APPEND packet_cull_models rtl_${name})
   set(packet_cull_models ${packet_cull_models} PARENT_SCOPE)
 endfunction()

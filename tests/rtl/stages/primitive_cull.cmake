@@ -8,7 +8,6 @@ foreach(shape IN ITEMS 1=1 2=4 3=10 4=23)
   set(latency ${CMAKE_MATCH_2})
   ctu_verilate(rtl_primitive_cull_${units} PREFIX VPrimitiveCull${units} TOP primitive_cull
     SOURCES ${keep_modules} ${primitive_cull_sources} ARGS --x-initial unique -GUNITS=${units} -GLATENCY=${latency})
-  target_compile_options(rtl_primitive_cull_${units} PRIVATE -O1)
   list(APPEND primitive_cull_libraries rtl_primitive_cull_${units})
 endforeach()
 rtl_mutants(primitive_cull_mutants TOP primitive_cull NAMES RayBoxInward RayBoxTwoAxes

@@ -4,7 +4,6 @@ set(ray_queue_sources ${rtl}/tokens.svh ${rtl_float_sources} ${rtl}/pipe_control
 function(ray_queue_model name)
   ctu_verilate(rtl_${name} PREFIX V${name} TOP ray_queue SOURCES ${ray_queue_sources} ARGS
     --x-initial unique ${ARGN})
-  target_compile_options(rtl_${name} PRIVATE -O1)
   list(APPEND ray_queue_models rtl_${name})
   set(ray_queue_models ${ray_queue_models} PARENT_SCOPE)
 endfunction()

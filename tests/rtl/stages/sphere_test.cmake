@@ -8,7 +8,6 @@ set(sphere_libraries rtl_sphere_intersect)
 foreach(latency IN ITEMS 1 21 89)
   ctu_verilate(rtl_sphere_test_${latency} PREFIX VSphereTest${latency} TOP sphere_test
     SOURCES ${sphere_test_sources} ARGS --x-initial unique -GLATENCY=${latency})
-  target_compile_options(rtl_sphere_test_${latency} PRIVATE -O1)
   list(APPEND sphere_libraries rtl_sphere_test_${latency})
 endforeach()
 rtl_mutants(sphere_mutants TOP sphere_intersect NAMES SphereGrazedMisses SphereNoFarEnd

@@ -9,7 +9,6 @@ function(table_fetch_model name)
   list(TRANSFORM ARGN PREPEND -G OUTPUT_VARIABLE parameters)
   ctu_verilate(rtl_table_fetch_${name} PREFIX VTableFetch${name} TOP table_fetch SOURCES ${table_fetch_sources}
     ARGS ${table_fetch_args} ${parameters})
-  target_compile_options(rtl_table_fetch_${name} PRIVATE -O1)
   list(APPEND table_fetch_libraries rtl_table_fetch_${name})
   set(table_fetch_libraries ${table_fetch_libraries} PARENT_SCOPE)
 endfunction()

@@ -4,7 +4,6 @@ set(traversal_stack_sources ${rtl}/tokens.svh ${rtl}/float/float_compare.sv ${rt
 function(traversal_stack_model name)
   ctu_verilate(rtl_${name} PREFIX V${name} TOP traversal_stack SOURCES ${traversal_stack_sources} ARGS
     --x-initial unique ${ARGN})
-  target_compile_options(rtl_${name} PRIVATE -O1)
   list(APPEND traversal_stack_models rtl_${name})
   set(traversal_stack_models ${traversal_stack_models} PARENT_SCOPE)
 endfunction()

@@ -9,7 +9,6 @@ set(triangle_libraries rtl_triangle_intersect)
 foreach(latency IN ITEMS 1 13 45)
   ctu_verilate(rtl_triangle_test_${latency} PREFIX VTriangleTest${latency} TOP triangle_test
     SOURCES ${triangle_test_sources} ARGS --x-initial unique -GLATENCY=${latency})
-  target_compile_options(rtl_triangle_test_${latency} PRIVATE -O1)
   list(APPEND triangle_libraries rtl_triangle_test_${latency})
 endforeach()
 rtl_mutants(triangle_intersect_mutants TOP triangle_intersect NAMES EdgeSignOfZero EdgeOnHit TriangleRangeOpen
