@@ -45,8 +45,9 @@ function(ctu_verilator_coverage_runtime library)
 endfunction()
 
 # ctu_verilate(library PREFIX Vname TOP module SOURCES a.sv ... [ARGS -DX -GY=1 ...])
-# One model as a static library; `#include "Vname.h"`. All of its C++ is one translation unit, compiled with
-# CTU_VERILATED_FLAGS of the folder that asks for it.
+# One model as a static library; `#include "Vname.h"`. Further calls add models to the same library. All of its C++ is
+# one translation unit, as reading Verilator's headers takes longer than compiling a small model, and is compiled with
+# CTU_VERILATED_FLAGS of the folder that asks for it first.
 function(ctu_verilate library)
   cmake_parse_arguments(ARG "" "PREFIX;TOP" "SOURCES;ARGS" ${ARGN})
   if(NOT TARGET ctu_verilated)
@@ -63,11 +64,16 @@ function(ctu_verilate library)
     DEPENDS ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/cmake/JoinVerilated.cmake
     COMMENT "Verilating ${ARG_TOP} as ${ARG_PREFIX}"
     VERBATIM)
-  add_library(${library} STATIC ${folder}/all.cpp ${folder}/${ARG_PREFIX}.h)
-  add_custom_target(${library}_sources DEPENDS ${folder}/all.cpp)
-  add_dependencies(${library} ${library}_sources)
-  add_dependencies(rtl_sources ${library}_sources)
+  if(NOT TARGET ${library})
+    add_library(${library} STATIC)
+    target_compile_options(${library} PRIVATE -w ${CTU_VERILATED_FLAGS})
+    target_link_libraries(${library} PUBLIC ctu_verilated)
+  else()
+    set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  endif()
+  target_sources(${library} PRIVATE ${folder}/all.cpp ${folder}/${ARG_PREFIX}.h)
   target_include_directories(${library} SYSTEM PUBLIC ${folder})
-  target_compile_options(${library} PRIVATE -w ${CTU_VERILATED_FLAGS})
-  target_link_libraries(${library} PUBLIC ctu_verilated)
+  add_custom_target(${ARG_PREFIX}_sources DEPENDS ${folder}/all.cpp)
+  add_dependencies(${library} ${ARG_PREFIX}_sources)
+  add_dependencies(rtl_sources ${ARG_PREFIX}_sources)
 endfunction()

@@ -2,15 +2,12 @@
 set(mask_test_sources ${rtl}/table_bank.sv ${rtl}/table_turns.sv ${rtl}/table_memory.sv ${lane_rows_sources}
   ${rtl}/mask_mirror.sv ${rtl}/mask_lane.sv)
 set(mask_test_headers ${rtl}/mask_designs.svh ${rtl}/key_fold.svh ${rtl}/tokens.svh)
-set(mask_test_libraries "")
 # mask_test_model(Name PARAMETER=value ...)
 function(mask_test_model name)
   list(TRANSFORM ARGN PREPEND -G OUTPUT_VARIABLE parameters)
-  ctu_verilate(rtl_mask_test_${name} PREFIX VMaskTest${name} TOP mask_test
+  ctu_verilate(rtl_mask_test_models PREFIX VMaskTest${name} TOP mask_test
     SOURCES ${mask_test_headers} ${rtl_flow_sources} ${mask_test_sources} ${rtl}/mask_test.sv
     ARGS --x-initial unique ${parameters})
-  list(APPEND mask_test_libraries rtl_mask_test_${name})
-  set(mask_test_libraries ${mask_test_libraries} PARENT_SCOPE)
 endfunction()
 
 mask_test_model(Projection DESIGN=5 R=4 R_RAY=4 BANKS=4 PORTS=1 LATENCY=2)
@@ -34,7 +31,6 @@ mask_test_model(BitTableCached DESIGN=3 R=4 R_RAY=5 ROWS=2 ENTRIES=64 CACHED=1'b
 rtl_mutants(mask_test_mutants TOP mask_test NAMES UnsharedReads RowsNotKept IdNotMirrored SecondTurnsForgotten
   SOURCES ${mask_test_headers} ${rtl_flow_sources} ${mask_test_sources} ${rtl}/mask_test.sv
   ARGS -GDESIGN=4 -GROWS=1 -GDISTINCT=700 -GBANKS=1 -GLATENCY=1)
-list(APPEND mask_test_libraries ${mask_test_mutants})
 
 # Each fold for a few resolutions of rays.
 ctu_verilate(rtl_fold_bench PREFIX VFoldBench TOP fold_bench
@@ -44,7 +40,7 @@ ctu_test(test_rtl_key_fold SOURCES key_fold_test.cpp DEPENDS ctu_cull ctu_oracle
 
 ctu_test(test_rtl_mask_test
   SOURCES mask_test_test.cpp
-  DEPENDS ctu_pipeline_test_support ctu_oracle ${mask_test_libraries}
+  DEPENDS ctu_pipeline_test_support ctu_oracle rtl_mask_test_models ${mask_test_mutants}
   LABEL property)
 
 foreach(module IN ITEMS table_bank table_turns mirror_fold reverse_fold mask_mirror)

@@ -17,10 +17,8 @@ set(packet_cull_sources ${rtl}/tokens.svh ${rtl_float_sources} ${packet_lane_sou
   ${rtl}/arrival_queue.sv ${rtl}/context_file.sv ${rtl}/entry_search.sv ${rtl}/pipe_control.sv ${rtl}/packet_cull.sv)
 # packet_cull_model(name arguments of the module, -D of mutations ...)
 function(packet_cull_model name)
-  ctu_verilate(rtl_${name} PREFIX V${name} TOP packet_cull SOURCES ${keep_modules} ${packet_cull_sources} ARGS
+  ctu_verilate(rtl_packet_cull_models PREFIX V${name} TOP packet_cull SOURCES ${keep_modules} ${packet_cull_sources} ARGS
     --x-initial unique ${ARGN})
-  list(APPEND packet_cull_models rtl_${name})
-  set(packet_cull_models ${packet_cull_models} PARENT_SCOPE)
 endfunction()
 packet_cull_model(PacketCull)
 packet_cull_model(PacketCullParallel -GMIN_INTERVAL=1 -GLATENCY=1 -GPACKETS=1 -GENTRIES=1)
@@ -29,7 +27,7 @@ packet_cull_model(PacketCullCompact -GMIN_INTERVAL=2 -GLATENCY=25 -GPACKETS=5 -G
 packet_cull_model(MutantPacketDoubts -GMIN_INTERVAL=3 -GLATENCY=2 -DCTU_MUTATE_PACKET_DOUBTS)
 ctu_test(test_rtl_packet_cull
   SOURCES packet_cull_test.cpp
-  DEPENDS ctu_pipeline_test_support ctu_test_support ${packet_cull_models}
+  DEPENDS ctu_pipeline_test_support ctu_test_support rtl_packet_cull_models
   LABEL property)
 
 # What it is made of is checked with it. The other stages that have more to do where rays travel in packets are checked in

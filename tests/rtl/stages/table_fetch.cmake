@@ -3,14 +3,11 @@ set(lane_rows_sources ${rtl}/mirror_fold.sv ${rtl}/reverse_fold.sv ${rtl}/key_ro
 set(table_fetch_sources ${rtl}/mask_designs.svh ${rtl}/key_fold.svh ${lane_rows_sources} ${line_fetch_sources}
   ${rtl}/row_buffer.sv ${rtl}/table_fetch.sv)
 set(table_fetch_args ${compact} -GSLOT_BITS=4 -GMAX_SETS=8 -GMAX_WAYS=4 -GMAX_HIT_LATENCY=5)
-set(table_fetch_libraries "")
 # table_fetch_model(Name PARAMETER=value ...)
 function(table_fetch_model name)
   list(TRANSFORM ARGN PREPEND -G OUTPUT_VARIABLE parameters)
-  ctu_verilate(rtl_table_fetch_${name} PREFIX VTableFetch${name} TOP table_fetch SOURCES ${table_fetch_sources}
+  ctu_verilate(rtl_table_fetch_models PREFIX VTableFetch${name} TOP table_fetch SOURCES ${table_fetch_sources}
     ARGS ${table_fetch_args} ${parameters})
-  list(APPEND table_fetch_libraries rtl_table_fetch_${name})
-  set(table_fetch_libraries ${table_fetch_libraries} PARENT_SCOPE)
 endfunction()
 
 table_fetch_model(Projection DESIGN=5 ENTRIES=64)
@@ -24,7 +21,7 @@ rtl_mutants(table_fetch_mutants TOP table_fetch NAMES FetchSecondRoundLast Table
   SOURCES ${table_fetch_sources} ARGS ${table_fetch_args} -GDESIGN=4 -GR_RAY=5 -GROWS=1 -GDISTINCT=700 -GPORTS=2)
 ctu_test(test_rtl_table_fetch
   SOURCES table_fetch_test.cpp
-  DEPENDS ctu_cosim ctu_pipeline_test_support ${table_fetch_libraries} ${table_fetch_mutants}
+  DEPENDS ctu_cosim ctu_pipeline_test_support rtl_table_fetch_models ${table_fetch_mutants}
   LABEL property)
 
 rtl_check(lane_rows SOURCES ${lane_rows_sources})

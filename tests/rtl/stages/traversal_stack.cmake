@@ -2,10 +2,8 @@
 set(traversal_stack_sources ${rtl}/tokens.svh ${rtl}/float/float_compare.sv ${rtl}/traversal_stack.sv)
 # traversal_stack_model(name arguments of the module, -D of mutations ...)
 function(traversal_stack_model name)
-  ctu_verilate(rtl_${name} PREFIX V${name} TOP traversal_stack SOURCES ${traversal_stack_sources} ARGS
+  ctu_verilate(rtl_traversal_stack_models PREFIX V${name} TOP traversal_stack SOURCES ${traversal_stack_sources} ARGS
     --x-initial unique ${ARGN})
-  list(APPEND traversal_stack_models rtl_${name})
-  set(traversal_stack_models ${traversal_stack_models} PARENT_SCOPE)
 endfunction()
 traversal_stack_model(TraversalStackWide -GSLOT_BITS=5 -GMAX_ENTRIES=64 -GDEPTH_BITS=9)
 traversal_stack_model(TraversalStack)
@@ -17,7 +15,7 @@ foreach(name IN ITEMS KeptDepth NoTurns NearestFirst RefillOldest)
 endforeach()
 ctu_test(test_rtl_traversal_stack
   SOURCES traversal_stack_test.cpp
-  DEPENDS ctu_pipeline_test_support ${traversal_stack_models}
+  DEPENDS ctu_pipeline_test_support rtl_traversal_stack_models
   LABEL property)
 
 rtl_check(traversal_stack SOURCES ${traversal_stack_sources} WORD_LEVEL)

@@ -5,11 +5,9 @@ set(triangle_test_sources ${rtl}/tokens.svh ${triangle_intersect_sources} ${rtl}
   ${rtl}/triangle_test.sv)
 ctu_verilate(rtl_triangle_intersect PREFIX VTriangleIntersect TOP triangle_intersect
   SOURCES ${triangle_intersect_sources} ARGS -GLATENCY=1)
-set(triangle_libraries rtl_triangle_intersect)
 foreach(latency IN ITEMS 1 13 45)
-  ctu_verilate(rtl_triangle_test_${latency} PREFIX VTriangleTest${latency} TOP triangle_test
+  ctu_verilate(rtl_triangle_test PREFIX VTriangleTest${latency} TOP triangle_test
     SOURCES ${triangle_test_sources} ARGS --x-initial unique -GLATENCY=${latency})
-  list(APPEND triangle_libraries rtl_triangle_test_${latency})
 endforeach()
 rtl_mutants(triangle_intersect_mutants TOP triangle_intersect NAMES EdgeSignOfZero EdgeOnHit TriangleRangeOpen
   SOURCES ${triangle_intersect_sources} ARGS -GLATENCY=1)
@@ -17,7 +15,7 @@ rtl_mutants(triangle_test_mutants TOP triangle_test NAMES BestAfterInterval Tria
   SOURCES ${triangle_test_sources} ARGS --x-initial unique -GLATENCY=1)
 ctu_test(test_rtl_triangle_test
   SOURCES triangle_intersect_test.cpp triangle_test_test.cpp
-  DEPENDS ctu_pipeline_test_support ${triangle_libraries} ${triangle_intersect_mutants} ${triangle_test_mutants}
+  DEPENDS ctu_pipeline_test_support rtl_triangle_intersect rtl_triangle_test ${triangle_intersect_mutants} ${triangle_test_mutants}
   LABEL property)
 list(REMOVE_ITEM triangle_test_sources ${keep_modules})
 rtl_check(triangle_test SOURCES ${triangle_test_sources} WORD_LEVEL)
