@@ -11,8 +11,8 @@
 
 namespace ctu::tailor {
 
-/// The parameters of the RTL that make this unit, no larger than the configuration and its parts need. Throws Error when
-/// the RTL does not have what they ask for.
+/// The parameters of the RTL that make this unit, no larger than the configuration and its parts need. Throws Error
+/// when the RTL does not have what they ask for.
 area::RtlParameters gate_parameters(const pipeline::UnitConfig& config, const UnitParts& parts);
 
 /// The same as `ctu_rtl_build(NAME PARAMETER value ...)`.
