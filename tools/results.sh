@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the tables of docs/results.md, docs/numerics.md and docs/ladder.md between their marks, and the plots of docs/plots, from all scenes at hand.
 #   tools/results.sh PROGRAM SCENES_FOLDER [--full] [SECTION...]
-# Sections: culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor ladder; none: all. --full is the setting of the papers, many hours long.
+# Sections: culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor ladder ladder_long ladder_coverage; none: all. --full is the setting of the papers, many hours long.
 set -euo pipefail
 program=$1
 index=$2/index.txt
@@ -9,7 +9,7 @@ shift 2
 full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
-[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor ladder)
+[ ${#sections[@]} -gt 0 ] || sections=(culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor ladder ladder_long ladder_coverage)
 
 page=docs/results.md
 plots=docs/plots
@@ -452,7 +452,7 @@ tailor() {
 ladder_row() {  # LABEL SCENE RAYS OPTION...
   local label=$1 scene=$2 rays=$3
   shift 3
-  keep log "$program" record "$scene" -o "$scratch/ladder.ctut" --rays "$rays" --size "$size" --designs none,mask-lut
+  keep log "$program" record "$scene" -o "$scratch/ladder.ctut" --rays "$rays" --size "$size" --designs mask-lut
   keep rungs "$program" ladder "$scratch/ladder.ctut" --errors 2% --markdown "$@"
   awk -F' *[|] *' -v label="$label | $rays" -v rays="$(awk '/^rays /{ print $2 }' <("$program" trace info "$scratch/ladder.ctut"))" '
     $2 == "estimate" { counting = $9 }
@@ -463,11 +463,15 @@ ladder_row() {  # LABEL SCENE RAYS OPTION...
     "$scratch/rungs"
 }
 
+ladder_head() {
+  echo "| scene | rays | number | cycles | seconds | estimate: error | times faster, counting | ... counted before | sampled 2%: error | interval | rays simulated | times faster | holds |"
+  echo "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |"
+}
+
 ladder() {
   local name path scene rays size=160x90 page=docs/ladder.md
   {
-    echo "| scene | rays | number | cycles | seconds | estimate: error | times faster, counting | ... counted before | sampled 2%: error | interval | rays simulated | times faster | holds |"
-    echo "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |"
+    ladder_head
     for rays in diffuse shadow; do
       for scene in hair-ball curly-hair straight-hair tilted-quads foliage tetra; do ladder_row "gen:$scene" "gen:$scene" "$rays"; done
       while read -r name path; do ladder_row "$name" "$(dirname "$index")/$path" "$rays"; done <"$index"
@@ -476,10 +480,47 @@ ladder() {
   put ladder
 }
 
+# The same of long traces, where samples pay.
+ladder_long() {
+  local name size=960x540 page=docs/ladder.md
+  {
+    ladder_head
+    ladder_row gen:hair-ball gen:hair-ball diffuse
+    ladder_row gen:foliage gen:foliage diffuse
+    for name in bunny sponza straight-hair classroom kitchen; do
+      if listed "$name"; then ladder_row "$name" "$(dirname "$index")/$(awk -v name="$name" '$1 == name { print $2 }' "$index")" diffuse; fi
+    done
+  } >"$scratch/ladder_long"
+  put ladder_long
+}
+
+# How often intervals hold: each sample 200 times.
+ladder_coverage_row() {  # LABEL SCENE RAYS SIZE
+  keep log "$program" record "$2" -o "$scratch/ladder.ctut" --rays "$3" --size "$4" --designs mask-lut
+  keep rungs "$program" ladder "$scratch/ladder.ctut" --errors 2% --repetitions 200 --markdown
+  awk -F' *[|] *' -v label="$1 | $3, $4" '
+    $2 ~ /^2%, / { printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s |\n", label, $3, $4, $5, $6, $7, $8, $9, $10 }' "$scratch/rungs"
+}
+
+ladder_coverage() {
+  local name rays size page=docs/ladder.md
+  {
+    echo "| scene | rays | repetitions | hold | run whole | bias | rms error | half the interval | rays simulated | times faster |"
+    echo "| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    ladder_coverage_row gen:hair-ball gen:hair-ball diffuse 960x540
+    ladder_coverage_row gen:foliage gen:foliage diffuse 960x540
+    while read -r name rays size; do
+      if listed "$name"; then ladder_coverage_row "$name" "$(dirname "$index")/$(awk -v name="$name" '$1 == name { print $2 }' "$index")" "$rays" "$size"; fi
+    done < <(printf '%s\n' "bunny diffuse 960x540" "sponza diffuse 960x540" "classroom diffuse 480x270" \
+      "killeroo shadow 960x540" "kitchen shadow 960x540")
+  } >"$scratch/ladder_coverage"
+  put ladder_coverage
+}
+
 for section in "${sections[@]}"; do
   case $section in
-    culling | auto | paper | packets | raybox | leaves | together | variants | designs | tables | compression | precision | area | numerics | raydist | tailor | ladder) "$section" ;;
-    *) echo "no section $section: culling, auto, paper, packets, raybox, leaves, together, variants, designs, tables, compression, precision, area, numerics, raydist, tailor or ladder" >&2; exit 2 ;;
+    culling | auto | paper | packets | raybox | leaves | together | variants | designs | tables | compression | precision | area | numerics | raydist | tailor | ladder | ladder_long | ladder_coverage) "$section" ;;
+    *) echo "no section $section: culling, auto, paper, packets, raybox, leaves, together, variants, designs, tables, compression, precision, area, numerics, raydist, tailor, ladder, ladder_long or ladder_coverage" >&2; exit 2 ;;
   esac
 done
 exit "$failed"

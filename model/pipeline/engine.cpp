@@ -145,6 +145,12 @@ class PlainEngine final : public Engine {
   Cycle now() const override { return now_; }
   int occupied_contexts() const override { return state_.contexts.occupied(); }
   const EventLog& log() const override { return state_.log; }
+  void warm(accel::ChildRef ref) override {
+    if (accel::is_leaf(ref))
+      stages_.leaf_fetch.warm({ref, 0});
+    else
+      stages_.node_fetch.warm({ref, 0});
+  }
   UnitResult result() override {
     if (parts_.row() != nullptr) parts_.row()->close_accounts(now_);
     return make_result(state_, stages_, now_);

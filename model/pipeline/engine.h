@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "model/accel/child_ref.h"
 #include "model/pipeline/backpressure.h"
 #include "model/pipeline/cycle.h"
 #include "model/pipeline/event_log.h"
@@ -44,6 +45,8 @@ class Engine {
   /// Contexts that hold a ray.
   virtual int occupied_contexts() const = 0;
   virtual const EventLog& log() const = 0;
+  /// Brings the caches up to date with a visit of a node or leaf that is not simulated; takes no time.
+  virtual void warm(accel::ChildRef ref) = 0;
   virtual UnitResult result() = 0;
 };
 

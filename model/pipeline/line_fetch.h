@@ -80,6 +80,14 @@ class LineFetch : public PacketPort<Lines, Wiring> {
     }
     return work(now);
   }
+  /// The token's lines are in the cache as if it had just been looked up; takes no time. Lines under way stay so.
+  void warm(const Token& token) {
+    Lines lines = lines_;  // a lookup may be at work
+    lines.start(token);
+    do {
+      if (!tags_.touch(lines.current()) && mshrs_.find(lines.current()) < 0) tags_.install(lines.current());
+    } while (lines.next());
+  }
   Cycle next_event(Cycle) const {
     return reading_head_ == reading_tail_ ? kNever : reading_[reading_head_ & ring_mask_].due;
   }

@@ -74,6 +74,7 @@ class Climber {
     // From the bottom up: what the first one reads from the disk, the others find in memory.
     const sim::RunRecord cycle = run(unit, "cycle");
     right_ &= cycle.result.wrong_hits == 0;
+    ladder.cycle_seconds = cycle.wall_seconds;
     if (packets) {
       ladder.rungs.push_back({.engine = "estimate", .note = "rays in packets"});
     } else {
@@ -89,6 +90,12 @@ class Climber {
       one.error = one.cycles / truth - 1;
       if (one.half_width) *one.half_width *= one.cycles / truth;
     }
+    if (args_.repetitions > 0 && !packets)
+      for (const double error : errors_) {
+        options_.error = error;
+        ladder.coverages.push_back(
+            measure_coverage(unit.work, unit.image, unit.config, options_, args_.repetitions, truth));
+      }
     return ladder;
   }
 
@@ -204,6 +211,16 @@ ordered_json to_json(const Ladder& ladder) {
     comparings.push_back(json);
   }
   ordered_json json{{"config", ladder.config}, {"errors_against", ladder.reference}, {"engines", rungs}};
+  for (const Coverage& c : ladder.coverages)
+    json["coverage"].push_back({{"error_percent", 100 * c.options.error},
+                                {"repetitions", c.repetitions},
+                                {"covered", c.covered},
+                                {"whole", c.whole},
+                                {"bias_percent", 100 * c.bias},
+                                {"rms_percent", 100 * c.rms},
+                                {"half_width_percent", 100 * c.half_width},
+                                {"simulated_share_of_rays", c.share},
+                                {"wall_seconds", c.wall_seconds}});
   if (!comparings.empty()) json["relative_to_first_config"] = comparings;
   return json;
 }
@@ -253,6 +270,12 @@ void add_ladder(CLI::App& app, LadderArgs& args, int& exit_code) {
   command->add_option("--seed", args.seed, "of the places of their chunks")->capture_default_str();
   command->add_option("--first", args.first_ray, "first ray")->capture_default_str();
   command->add_option("--rays", args.rays, "number of rays; 0: to the end")->capture_default_str();
+  command
+      ->add_option("--repetitions", args.repetitions,
+                   "also draw each sample so many times, with seeds from --seed on, and say how often its interval "
+                   "holds the cycles")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
   command->add_flag("--rtl", args.rtl, "also in gates, where a build fits; errors are against it then");
   command->add_option("--json", args.json_path, "write the result here");
   command->add_option("--out", args.output,

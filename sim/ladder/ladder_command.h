@@ -19,6 +19,7 @@ struct LadderArgs {
   std::uint64_t seed = 1;
   std::uint64_t first_ray = 0, rays = 0;
   bool rtl = false;
+  std::uint64_t repetitions = 0;  ///< of each sample, to see how often its interval holds; 0: not asked
   bool markdown = false;
   std::string json_path;
   std::string output;   ///< folder of the plot and its data; empty: none

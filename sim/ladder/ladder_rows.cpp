@@ -12,10 +12,11 @@ std::string interval(const std::optional<double>& half_width) {
   return half_width ? "+-" + percent(*half_width) : std::string();
 }
 
-double seconds_of_cycle(const Ladder& ladder) {
-  for (const Rung& rung : ladder.rungs)
-    if (rung.engine == "cycle") return rung.wall_seconds;
-  return 0;
+/// As one word of a line of data.
+std::string word(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == ' ' || c == ',' || c == '\'' || c == '"'; }, '_');
+  return name;
 }
 
 std::string row(const Rung& rung, double cycle_seconds, bool markdown) {
@@ -39,7 +40,8 @@ std::string to_table(const Ladder& ladder, bool markdown) {
   else
     text += fmt::format("{:<26}{:>14}{:>11}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "engine", "cycles", "error", "interval",
                         "rays", "seconds", "cycles/s", "x cycle");
-  for (const Rung& rung : ladder.rungs) text += row(rung, seconds_of_cycle(ladder), markdown);
+  for (const Rung& rung : ladder.rungs) text += row(rung, ladder.cycle_seconds, markdown);
+  if (!ladder.coverages.empty()) text += "\n" + to_table(ladder.coverages, ladder.cycle_seconds, markdown);
   if (ladder.comparings.empty()) return text;
   text += markdown ? "\n| cycles of the first, times | engine | interval | seconds |\n| ---: | --- | ---: | ---: |\n"
                    : fmt::format("{:<26}{:>14}{:>11}{:>12}\n", "of the first, by", "ratio", "interval", "seconds");
@@ -56,14 +58,14 @@ std::string to_csv(const std::vector<Ladder>& ladders) {
   for (const Ladder& ladder : ladders)
     for (const Rung& rung : ladder.rungs)
       if (rung.note.empty())
-        text += fmt::format("{},{},{:.0f},{:.6f},{:.6f},{:.6f},{:.6f}\n", ladder.config, rung.engine, rung.cycles,
+        text += fmt::format("{},{},{:.0f},{:.6f},{:.6f},{:.6f},{:.6f}\n", word(ladder.config), rung.engine, rung.cycles,
                             100 * rung.error, 100 * rung.half_width.value_or(0), rung.wall_seconds, rung.share);
   return text;
 }
 
 std::string plot_script(const std::vector<Ladder>& ladders, const std::string& title) {
   std::string configs;
-  for (const Ladder& ladder : ladders) configs += (configs.empty() ? "" : " ") + ladder.config;
+  for (const Ladder& ladder : ladders) configs += (configs.empty() ? "" : " ") + word(ladder.config);
   std::string text = fmt::format(R"(set datafile separator ','
 set datafile missing NaN
 set terminal svg noenhanced size 900,520 font 'sans,13' background 'white'
@@ -71,7 +73,7 @@ set output 'ladder.svg'
 configs = '{}'
 set title '{}: error against run time'
 )",
-                                 configs, title);
+                                 configs, word(title));
   // An answer without error has no place on a logarithmic axis: it is drawn at the lower border.
   text += R"(set logscale xy
 set xlabel 'seconds'
@@ -88,7 +90,7 @@ plot for [i = 1:words(configs)] 'ladder.csv' skip 1 \
     using (strcol(1) eq word(configs, i) && $5 > 0 ? $6 : NaN):(0.012):(0.012):(drawn($5)) with yerrorbars pt 0 lw 1.5 \
     lc rgb word(colors, (i - 1) % 6 + 1) notitle, \
   for [i = 1:words(configs)] 'ladder.csv' skip 1 \
-    using (strcol(1) eq word(configs, i) ? $6 : NaN):(drawn($4)):2 with labels offset 0,1 font ',10' notitle
+    using (strcol(1) eq word(configs, i) ? $6 : NaN):(drawn($4)):2 with labels left rotate by 30 offset 0.5,0.5 font ',10' notitle
 )";
   return text;
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/ladder/coverage.h"
+
 namespace ctu::ladder {
 
 /// One run.
@@ -31,6 +33,8 @@ struct Ladder {
   std::string reference;  ///< the engine that errors are against: "rtl" or "cycle"
   std::vector<Rung> rungs;
   std::vector<Comparing> comparings;
+  std::vector<Coverage> coverages;
+  double cycle_seconds = 0;  ///< of the engine "cycle"
 };
 
 std::string to_table(const Ladder& ladder, bool markdown);

@@ -7,6 +7,7 @@
 
 #include "model/base/error.h"
 #include "model/pipeline/engine.h"
+#include "sim/ladder/chunk_feed.h"
 #include "sim/ladder/chunk_plan.h"
 #include "sim/ladder/recorded_counts.h"
 
@@ -15,121 +16,70 @@ namespace {
 
 using pipeline::UnitResult;
 
-// How far neighbouring chunks differ, relative: what the first draw goes by, so that few come after it.
-constexpr double kExpectedSpread = 0.14;
+// What a chunk's rays and visits do not say of its cycles, relative: what the first draw goes by.
+constexpr double kExpectedSpread = 0.1;
 constexpr std::uint64_t kFewestChunks = 48;
 constexpr double kLargestShare = 0.5;  ///< of the rays, warm-up included: from there on all are simulated
+constexpr double kFirstShare = 0.25;   ///< likewise, of the first draw
 constexpr double kReserve = 1.15;      ///< chunks drawn beyond what the first ones say are needed
 constexpr int kDraws = 5;
 
-/// What the chunks of one draw took: sums by unit.
-struct Measured {
-  Drawn cycles_by_visits, cycles_by_rays;
+/// What the manifest knows of the whole work: rays always, visits if they were counted.
+struct Known {
+  Sizes sizes{};
+  std::size_t count = 1;
 };
 
-/// Gives the chunks' rays one part after the other, and notes cycle and events whenever the unit has taken the last ray
-/// of a part and asks for more.
-class ChunkFeed : public reference::RayFeed {
- public:
-  ChunkFeed(const TraceWork& work, const ChunkPlan& plan) : work_(work), plan_(plan), measured_(plan.units) {}
+Known known_of(const TraceWork& work, const reference::Counts* counts) {
+  Known known;
+  known.sizes[0] = static_cast<double>(std::min(work.range.last, work.reader.rays()) - work.range.first);
+  if (counts == nullptr) return known;
+  known.sizes[1] = static_cast<double>(counts->node_visits);
+  known.sizes[2] = static_cast<double>(counts->leaf_visits);
+  known.count = kSizes;
+  return known;
+}
 
-  void watch(const pipeline::Engine& engine) { engine_ = &engine; }
-  std::uint64_t total_rays() const override {
-    std::uint64_t rays = 0;
-    for (const Chunk& chunk : plan_.chunks) rays += chunk.last - chunk.warm;
-    return rays;
-  }
+Sizes sizes_of(const Window& window) { return {window.rays, window.node_visits, window.leaf_visits}; }
 
-  std::shared_ptr<const reference::RayBlock> next() override {
-    if (measuring_) note();
-    while (next_chunk_ < plan_.chunks.size()) {
-      const Chunk& chunk = plan_.chunks[next_chunk_];
-      if (!begun_) {
-        begun_ = true;
-        at_ = chunk.warm;
-      }
-      if (at_ < chunk.first) return part(at_, chunk.first);
-      if (at_ < chunk.last) {
-        start_ = now();
-        measuring_ = true;
-        return part(at_, chunk.last);
-      }
-      ++next_chunk_;
-      begun_ = false;
-    }
-    return nullptr;
-  }
+std::uint64_t lines(const pipeline::UnitConfig& config, int bytes) {
+  return static_cast<std::uint64_t>(bytes / config.memory.line_bytes);
+}
 
-  Measured measured(double share) const {
-    Measured m;
-    m.cycles_by_visits.share = m.cycles_by_rays.share = share;
-    for (const Sums& sums : measured_) {
-      m.cycles_by_visits.parts.push_back({sums.cycles, sums.events});
-      m.cycles_by_rays.parts.push_back({sums.cycles, sums.rays});
-    }
-    return m;
-  }
-
- private:
-  struct Sums {
-    double cycles = 0, events = 0, rays = 0;
-  };
-  struct Moment {
-    double cycle = 0, events = 0;
-  };
-
-  Moment now() const {
-    if (engine_ == nullptr) return {};
-    return {static_cast<double>(engine_->now()), static_cast<double>(engine_->log().events().size())};
-  }
-
-  /// Rays from `first` on, as far as their block reaches.
-  std::shared_ptr<const reference::RayBlock> part(std::uint64_t first, std::uint64_t last) {
-    const std::uint64_t number = work_.reader.block_of(first);
-    if (block_ == nullptr || number != block_number_) {
-      const traces::RayRange whole{work_.reader.first_ray(number), work_.reader.first_ray(number + 1)};
-      block_ = traces::TraceFeed(work_.reader, whole, work_.bvh, work_.masks, work_.tester).next();
-      block_number_ = number;
-    }
-    last = std::min(last, block_->first_ray + block_->rays.size());
-    rays_in_part_ = static_cast<double>(last - first);
-    at_ = last;
-    return std::make_shared<const reference::RayBlock>(
-        traces::part_of(*block_, first - block_->first_ray, last - block_->first_ray));
-  }
-
-  void note() {
-    const Moment end = now();
-    Sums& sums = measured_[plan_.chunks[next_chunk_].unit];
-    sums.cycles += end.cycle - start_.cycle;
-    sums.events += end.events - start_.events;
-    sums.rays += rays_in_part_;
-    measuring_ = false;
-  }
-
-  const TraceWork& work_;
-  const ChunkPlan& plan_;
-  const pipeline::Engine* engine_ = nullptr;
-  std::shared_ptr<const reference::RayBlock> block_;
-  std::uint64_t block_number_ = 0, at_ = 0;
-  std::size_t next_chunk_ = 0;
-  bool begun_ = false, measuring_ = false;
-  Moment start_;
-  double rays_in_part_ = 0;
-  std::vector<Sums> measured_;
-};
-
-/// Contexts fill within twice their number of rays; a cache is up to date when what the chunks before have left in it
-/// and other rays would have thrown out is gone, which takes rays in proportion to its lines.
-ChunkSizes sizes_for(const pipeline::UnitConfig& config) {
-  const auto contexts = static_cast<std::uint64_t>(config.unit.contexts);
-  const auto lines =
-      static_cast<std::uint64_t>(std::max(config.node_cache.bytes, config.leaf_cache.bytes) / config.memory.line_bytes);
+struct Chunking {
   ChunkSizes sizes;
-  sizes.warm = 2 * contexts + lines / 16;
-  sizes.measured = std::max<std::uint64_t>(64, 2 * contexts);
-  sizes.first_warm = sizes.warm + lines;
-  return sizes;
+  WarmUp warm_up;
+
+  std::uint64_t rays_of_chunk() const { return sizes.measured + warm_up.most_simulated_rays; }
+  std::uint64_t rays_always() const { return sizes.head + sizes.tail + warm_up.most_simulated_rays; }
+};
+
+/// How much warm-up leaves no bias was measured (docs/ladder.md, "How a chunk begins").
+Chunking chunking_for(const pipeline::UnitConfig& config) {
+  const auto contexts = static_cast<std::uint64_t>(config.unit.contexts);
+  const std::uint64_t cached = lines(config, config.node_cache.bytes) + lines(config, config.leaf_cache.bytes);
+  Chunking c;
+  c.sizes.measured = std::max<std::uint64_t>(32, 8 * contexts);
+  c.sizes.head = 2 * c.sizes.measured;
+  c.sizes.tail = c.sizes.measured;
+  c.warm_up.contexts = contexts;
+  // The tables' cache is not shown anything: it fills while rays are simulated.
+  c.warm_up.simulated_rays = 3 * contexts + lines(config, config.table_cache.bytes) / 16;
+  c.warm_up.simulated_work = 128 * contexts;
+  c.warm_up.most_simulated_rays = std::max(c.warm_up.simulated_rays, 8 * contexts);
+  c.warm_up.shown_visits = 16 * cached;
+  c.warm_up.most_shown_rays = 4 * cached;
+  return c;
+}
+
+Chunking larger(const Chunking& a, const Chunking& b) {
+  return {
+      {std::max(a.sizes.measured, b.sizes.measured), std::max(a.sizes.head, b.sizes.head),
+       std::max(a.sizes.tail, b.sizes.tail)},
+      {std::max(a.warm_up.contexts, b.warm_up.contexts), std::max(a.warm_up.simulated_rays, b.warm_up.simulated_rays),
+       std::max(a.warm_up.simulated_work, b.warm_up.simulated_work),
+       std::max(a.warm_up.shown_visits, b.warm_up.shown_visits),
+       std::max(a.warm_up.most_shown_rays, b.warm_up.most_shown_rays)}};
 }
 
 void add(UnitResult& sum, const UnitResult& other) {
@@ -164,48 +114,56 @@ class Sampler {
       throw Error("--engine sampled", "the rays of this trace travel in packets, which chunks would cut",
                   "give --engine cycle, or record without --packets");
     counts_ = recorded_counts(work);
+    known_ = known_of(work, counts_);
   }
 
-  void draw(const ChunkPlan& plan) {
-    ChunkFeed feed(work_, plan);
+  void draw(const ChunkPlan& plan, const WarmUp& warm_up) {
+    ChunkFeed feed(work_, plan, warm_up);
     pipeline::EngineOptions options;
     options.keep_events = true;
     const auto engine = pipeline::make_engine(config_, {image_, work_.tester, feed}, options);
-    feed.watch(*engine);
-    const UnitResult part = pipeline::run_to_end(*engine);
-    const Measured measured = feed.measured(plan.share);
-    by_visits_.push_back(measured.cycles_by_visits);
-    by_rays_.push_back(measured.cycles_by_rays);
+    feed.run(*engine);
+    const UnitResult part = engine->result();
+    Draw& draw = draws_.emplace_back();
+    draw.share_of_groups = plan.share_of_blocks;
+    draw.share_within = plan.share_of_cells;
+    ends_ = {};
+    add_end(feed.drain());
+    for (std::size_t i = 0; i < plan.chunks.size(); ++i) {
+      const Window& window = feed.windows()[i];
+      if (plan.chunks[i].drawn)
+        draw.chunks.push_back({window.cycles, sizes_of(window), plan.chunks[i].group});
+      else
+        add_end(window);
+    }
     simulated_rays_ += part.rays;
     simulated_cycles_ += part.cycles;
     chunks_ += plan.chunks.size();
     add(sum_, part);
   }
 
-  /// Cycles of a visit, or of a ray where the visits of the whole work are not known.
-  Ratio ratio(double confidence) const {
-    return estimate_ratio(counts_ != nullptr ? by_visits_ : by_rays_, confidence);
+  /// Cycles of the whole work.
+  Total total() const {
+    Sizes between = known_.sizes;
+    for (std::size_t i = 0; i < kSizes; ++i) between[i] = std::max(0.0, between[i] - ends_.sizes[i]);
+    Total total = estimate_total(draws_, between, known_.count);
+    total.value += ends_.value;
+    return total;
   }
-  /// Cycles of rays, draw by draw.
-  const std::vector<Drawn>& by_rays() const { return by_rays_; }
+  const std::vector<Draw>& draws() const { return draws_; }
   std::uint64_t simulated_rays() const { return simulated_rays_; }
   std::uint64_t chunks() const { return chunks_; }
 
   Sampled result(double confidence) {
-    const auto rays = static_cast<double>(rays_in_all());
-    const double size =
-        counts_ != nullptr ? static_cast<double>(counts_->node_visits + counts_->leaf_visits) + rays : rays;
-    const Ratio ratio = this->ratio(confidence);
-    // The last rays still have their way to go when all are taken.
-    const double drain = static_cast<double>(sum_.ray_latency_sum) / static_cast<double>(sum_.rays);
+    const Total total = this->total();
+    const double half = half_width(draws_, total, confidence);
     Sampled s;
-    const double cycles = ratio.value * size + drain;
-    s.cycles_low = cycles - ratio.half_width * size;
-    s.cycles_high = cycles + ratio.half_width * size;
+    s.cycles_low = total.value - half;
+    s.cycles_high = total.value + half;
     s.chunks = chunks_;
     s.simulated_rays = simulated_rays_;
     s.simulated_cycles = simulated_cycles_;
-    scale(cycles, rays);
+    scale(total.value, known_.sizes[0]);
     s.result = std::move(sum_);
     return s;
   }
@@ -222,9 +180,15 @@ class Sampler {
     return s;
   }
 
-  std::uint64_t rays_in_all() const { return std::min(work_.range.last, work_.reader.rays()) - work_.range.first; }
-
  private:
+  /// Head, tail and what comes behind the last ray: part of every draw, and the same in all but for what lies in
+  /// caches.
+  void add_end(const Window& window) {
+    ends_.value += window.cycles;
+    const Sizes sizes = sizes_of(window);
+    for (std::size_t i = 0; i < kSizes; ++i) ends_.sizes[i] += sizes[i];
+  }
+
   /// The sums of the sample become those of the whole.
   void scale(double cycles, double rays) {
     const double by_cycles = cycles / static_cast<double>(sum_.cycles);
@@ -258,33 +222,38 @@ class Sampler {
   const accel::Image& image_;
   const pipeline::UnitConfig& config_;
   const reference::Counts* counts_ = nullptr;
-  std::vector<Drawn> by_visits_, by_rays_;
+  Known known_;
+  std::vector<Draw> draws_;
+  Measure ends_;
   UnitResult sum_;
   std::uint64_t simulated_rays_ = 0, simulated_cycles_ = 0, chunks_ = 0;
 };
 
-/// Draws more chunks until `ratio()` is as sharp as asked; false when that takes too many rays.
-template <class Draw, class RatioOf>
-bool draw_until_sharp(const TraceWork& work, const ChunkSizes& sizes, const SampledOptions& options, const Draw& draw,
-                      const RatioOf& ratio_of) {
+/// Draws more chunks until half the interval, relative, is as small as asked; false when that takes too many rays.
+template <class DrawPlan, class Reached>
+bool draw_until_sharp(const TraceWork& work, const Chunking& chunking, const SampledOptions& options,
+                      const DrawPlan& draw, const Reached& reached) {
   std::mt19937_64 random(options.seed);
   const std::uint64_t rays = std::min(work.range.last, work.reader.rays()) - work.range.first;
-  const auto most = static_cast<std::uint64_t>(kLargestShare * static_cast<double>(rays) /
-                                               static_cast<double>(sizes.warm + sizes.measured));
+  const auto chunks_in = [&](double share) {
+    const double left = share * static_cast<double>(rays) - static_cast<double>(chunking.rays_always());
+    return static_cast<std::uint64_t>(std::max(0.0, left / static_cast<double>(chunking.rays_of_chunk())));
+  };
+  const std::uint64_t most = chunks_in(kLargestShare), first = chunks_in(kFirstShare);
+  if (first < kFewestChunks) return false;
   const double expected = 2 * kExpectedSpread / options.error;
-  std::uint64_t drawn = 0, wanted = std::max(kFewestChunks, static_cast<std::uint64_t>(expected * expected));
-  wanted = std::min(wanted, std::max<std::uint64_t>(kFewestChunks, most / 3));
+  std::uint64_t drawn = 0;
+  std::uint64_t wanted = std::clamp(static_cast<std::uint64_t>(expected * expected), kFewestChunks, first);
   for (int i = 0; i < kDraws; ++i) {
     if (drawn + wanted > most) return false;
-    const ChunkPlan plan = plan_chunks(work, wanted, sizes, random);
+    const ChunkPlan plan = plan_chunks(work, wanted, chunking.sizes, random);
     draw(plan);
     drawn += plan.chunks.size();
-    const Ratio ratio = ratio_of();
-    const double reached = ratio.half_width / ratio.value;
-    if (reached <= options.error) return true;
-    const double needed = static_cast<double>(drawn) * (reached / options.error) * (reached / options.error) * kReserve;
+    const double ratio = reached() / options.error;
+    if (ratio <= 1) return true;
+    const double needed = static_cast<double>(drawn) * ratio * ratio * kReserve;
     wanted = static_cast<std::uint64_t>(std::min(needed, 1e15)) + 1 - drawn;
-    wanted = std::max<std::uint64_t>(wanted, 8);
+    wanted = std::max(wanted, kFewestChunks);
   }
   return false;
 }
@@ -303,32 +272,31 @@ Sampled run_sampled(const TraceWork& work, const accel::Image& image, const pipe
                     const SampledOptions& options) {
   require_possible(options);
   Sampler sampler(work, image, config);
+  const Chunking chunking = chunking_for(config);
   const bool sharp = draw_until_sharp(
-      work, sizes_for(config), options, [&](const ChunkPlan& plan) { sampler.draw(plan); },
-      [&] { return sampler.ratio(options.confidence); });
+      work, chunking, options, [&](const ChunkPlan& plan) { sampler.draw(plan, chunking.warm_up); },
+      [&] {
+        const Total total = sampler.total();
+        return half_width(sampler.draws(), total, options.confidence) / total.value;
+      });
   return sharp ? sampler.result(options.confidence) : sampler.run_all();
 }
 
 Comparison compare_sampled(const Side& first, const Side& second, const SampledOptions& options) {
   require_possible(options);
   Sampler a(first.work, first.image, first.config), b(second.work, second.image, second.config);
-  const auto ratio = [&] {
-    std::vector<Drawn> draws = b.by_rays();
-    for (std::size_t d = 0; d < draws.size(); ++d)
-      for (std::size_t i = 0; i < draws[d].parts.size(); ++i) draws[d].parts[i].below = a.by_rays()[d].parts[i].above;
-    return estimate_ratio(draws, options.confidence);
-  };
-  ChunkSizes sizes = sizes_for(first.config);
-  const ChunkSizes others = sizes_for(second.config);
-  sizes = {std::max(sizes.warm, others.warm), std::max(sizes.measured, others.measured),
-           std::max(sizes.first_warm, others.first_warm)};
+  const Chunking chunking = larger(chunking_for(first.config), chunking_for(second.config));
+  const auto ratio = [&] { return estimate_ratio(a.draws(), b.total(), a.total(), options.confidence); };
   const bool sharp = draw_until_sharp(
-      first.work, sizes, options,
+      first.work, chunking, options,
       [&](const ChunkPlan& plan) {
-        a.draw(plan);
-        b.draw(plan);
+        a.draw(plan, chunking.warm_up);
+        b.draw(plan, chunking.warm_up);
       },
-      ratio);
+      [&] {
+        const Ratio reached = ratio();
+        return reached.half_width / reached.value;
+      });
   Comparison comparison;
   comparison.chunks = a.chunks();
   if (sharp) {

@@ -1,11 +1,11 @@
 // Engine "sampled": the timed unit on chunks of the rays, with an interval that holds the cycles of the whole run at a
 // stated rate.
 //
-// All chunks go through one unit, one behind the other, as if they were a shorter trace: contexts are never drained
-// between them, and caches keep what the chunks before have left. Of each chunk the first rays only bring context and
-// caches up to date; then cycles are counted from the taking of the first measured ray to the taking of the last one,
-// and visits that ended meanwhile. The estimate is cycles over visits of the chunks, times the visits of the whole
-// trace, which its manifest knows.
+// The first rays of the trace, which find the caches empty, and the last ones, after which the unit runs empty, are
+// always simulated; between them chunks are drawn (chunk_plan.h) and each finds the unit as a run of all rays would
+// have left it (chunk_feed.h). What a chunk's cycles are beyond what its rays and visits say varies little, and rays
+// and visits of the whole trace are known from its manifest: so cycles are estimated by regression on them
+// (sample_total.h).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 #include "model/pipeline/result.h"
 #include "model/pipeline/unit_config.h"
-#include "sim/ladder/ratio_estimate.h"
+#include "sim/ladder/sample_total.h"
 #include "sim/ladder/trace_work.h"
 
 namespace ctu::ladder {
@@ -51,8 +51,7 @@ struct Comparison {
   std::uint64_t chunks = 0, simulated_rays = 0;
 };
 
-/// The same chunks of the same trace on both: what makes a chunk long makes it so for both, so that the ratio is known
-/// far better than either.
+/// The same chunks of the same trace on both: what makes a chunk longer than its visits say makes it so for both.
 Comparison compare_sampled(const Side& first, const Side& second, const SampledOptions& options);
 
 }  // namespace ctu::ladder

@@ -41,7 +41,8 @@ const json& rung(const json& config, const std::string& engine) {
 TEST_F(LadderCommandTest, all_engines_stand_in_one_table_and_units_are_compared) {
   write_text(folder_.path() / "few.toml", "[unit]\ncontexts = 8\n");
   write_text(folder_.path() / "many.toml", "[unit]\ncontexts = 32\n");
-  const Outcome outcome = ctusim("ladder " + kTrace + " few.toml many.toml --errors 10% --json ladder.json --out plot");
+  const Outcome outcome =
+      ctusim("ladder " + kTrace + " few.toml many.toml --errors 10% --repetitions 3 --json ladder.json --out plot");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   for (const char* part : {"estimate again", "sampled 10%", "cycle", "rtl", "paired"})
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part << "\n" << outcome.out;
@@ -52,6 +53,9 @@ TEST_F(LadderCommandTest, all_engines_stand_in_one_table_and_units_are_compared)
     EXPECT_EQ(rung(config, "cycle")["error_percent"], 0.0);
     EXPECT_LT(std::abs(rung(config, "estimate")["error_percent"].get<double>()), 15);
     EXPECT_TRUE(rung(config, "rtl").contains("note"));
+    ASSERT_EQ(config["coverage"].size(), 1u);
+    EXPECT_EQ(config["coverage"][0]["repetitions"], 3);
+    EXPECT_LT(std::abs(config["coverage"][0]["bias_percent"].get<double>()), 10);
   }
   const json& relative = ladder["configs"][1]["relative_to_first_config"];
   const double truth = rung(ladder["configs"][1], "cycle")["cycles"].get<double>() /
