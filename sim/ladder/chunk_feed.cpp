@@ -6,6 +6,8 @@ namespace ctu::ladder {
 namespace {
 
 constexpr std::size_t kBlocksKept = 3;
+constexpr std::uint64_t kNoRay = ~std::uint64_t{0};
+constexpr double kSettled = 0.5;  ///< of a warm-up: caches are shown when so much of it is left
 
 std::uint64_t visits_of(const reference::RayBlock& block, std::uint64_t ray) {
   const std::uint64_t i = ray - block.first_ray;
@@ -16,7 +18,7 @@ std::uint64_t visits_of(const reference::RayBlock& block, std::uint64_t ray) {
 
 ChunkFeed::ChunkFeed(const TraceWork& work, const ChunkPlan& plan, const WarmUp& warm_up)
     : work_(work), plan_(plan), warm_up_(warm_up), done_(work.range.first) {
-  warm_ = at_ = warm_up_begin();
+  begin_chunk();
 }
 
 std::uint64_t ChunkFeed::total_rays() const {
@@ -27,7 +29,7 @@ std::uint64_t ChunkFeed::total_rays() const {
 
 void ChunkFeed::run(pipeline::Engine& engine) {
   engine_ = &engine;
-  show_caches();  // of the first chunk, whose rays the engine has asked for when it was made
+  if (shown_ < at_) show_caches();  // the engine has asked for the first rays when it was made
   engine.advance(pipeline::kNever);
   drain_ = since(start_);
 }
@@ -35,7 +37,8 @@ void ChunkFeed::run(pipeline::Engine& engine) {
 std::shared_ptr<const reference::RayBlock> ChunkFeed::next() {
   while (chunk_ < plan_.chunks.size()) {
     const Chunk& chunk = plan_.chunks[chunk_];
-    if (at_ < chunk.first) return part(chunk.first);
+    if (at_ == shown_ && engine_ != nullptr) show_caches();
+    if (at_ < chunk.first) return part(std::min(chunk.first, shown_));
     if (at_ < chunk.last) {
       if (!measuring_) start_ = now();
       measuring_ = true;
@@ -47,39 +50,46 @@ std::shared_ptr<const reference::RayBlock> ChunkFeed::next() {
     measuring_ = false;
     done_ = chunk.last;
     if (++chunk_ == plan_.chunks.size()) break;
-    warm_ = at_ = warm_up_begin();
-    show_caches();
+    begin_chunk();
   }
   return nullptr;
 }
 
-/// The first ray to simulate in front of the chunk; not one that has been simulated.
-std::uint64_t ChunkFeed::warm_up_begin() {
-  const std::uint64_t end = plan_.chunks[chunk_].first;
-  std::uint64_t first = end, work = 0;
+void ChunkFeed::begin_chunk() {
+  const std::uint64_t chunk = plan_.chunks[chunk_].first;
+  at_ = warm_up_begin(chunk, 1);
+  shown_ = at_ == done_ ? kNoRay : warm_up_begin(chunk, kSettled);
+}
+
+/// The first of the rays that are this share of the warm-up in front of a ray; not one of a chunk before.
+std::uint64_t ChunkFeed::warm_up_begin(std::uint64_t end, double share) {
+  std::uint64_t first = end, visited = 0;
   const auto enough = [&] {
-    const std::uint64_t rays = end - first;
-    return rays >= warm_up_.simulated_rays && (work >= warm_up_.simulated_work || rays >= warm_up_.most_simulated_rays);
+    const auto rays = static_cast<double>(end - first), work = rays + static_cast<double>(visited);
+    return rays >= share * static_cast<double>(warm_up_.simulated_rays) &&
+           (work >= share * static_cast<double>(warm_up_.simulated_work) ||
+            rays >= share * static_cast<double>(warm_up_.most_simulated_rays));
   };
   while (first > done_ && !enough()) {
     --first;
-    work += 1 + visits_of(block(work_.reader.block_of(first)), first);
+    visited += visits_of(block(work_.reader.block_of(first)), first);
   }
   return first;
 }
 
-/// What rays before the chunk visit, as far back as it matters, but not those that have been simulated.
+/// What rays in front of `shown_` visit, as far back as it matters, but not those of a chunk before.
 void ChunkFeed::show_caches() {
-  std::uint64_t first = warm_, visits = 0;
-  while (first > done_ && visits < warm_up_.shown_visits && warm_ - first < warm_up_.most_shown_rays) {
+  const std::uint64_t end = std::exchange(shown_, kNoRay);
+  std::uint64_t first = end, visits = 0;
+  while (first > done_ && visits < warm_up_.shown_visits && end - first < warm_up_.most_shown_rays) {
     --first;
     visits += visits_of(block(work_.reader.block_of(first)), first);
   }
-  while (first < warm_) {
+  while (first < end) {
     const reference::RayBlock& from = block(work_.reader.block_of(first));
-    const std::uint64_t end = std::min(warm_, from.first_ray + from.rays.size());
-    show_rays(from, first - from.first_ray, end - from.first_ray);
-    first = end;
+    const std::uint64_t last = std::min(end, from.first_ray + from.rays.size());
+    show_rays(from, first - from.first_ray, last - from.first_ray);
+    first = last;
   }
 }
 

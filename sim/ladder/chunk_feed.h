@@ -2,12 +2,13 @@
 // of a chunk's first ray and the taking of its last one.
 //
 // What a chunk finds in the unit is to be what it would find in a run of all rays:
-//   caches    are shown what the rays before visit, in their order, without time passing; the node and leaf caches hold
-//             what was used last, so what they hold depends on few thousand visits;
 //   contexts  rays of the chunk before are still under way, which were met as they are in any place of the trace; so
-//   many
-//             rays are simulated in front of a chunk that these have come to their end, and long rays of its own place
-//             are under way instead. A rule in rays alone would not do: those that miss everything pass in no time.
+//             many rays are simulated in front of a chunk that these have come to their end, and long rays of its own
+//             place are under way instead. A rule in rays alone would not do: those that miss everything pass in no
+//             time.
+//   caches    are shown what the rays before visit, in their order, without time passing; the node and leaf caches hold
+//             what was used last, so what they hold depends on few thousand visits. This comes in the middle of the
+//             simulated rays: rays of the chunk before would fetch what belongs to their own place behind it.
 // Chunks that follow without a gap need neither.
 #pragma once
 
@@ -59,7 +60,8 @@ class ChunkFeed : public reference::RayFeed {
   };
   Moment now() const;
   Window since(const Moment& start) const;
-  std::uint64_t warm_up_begin();
+  void begin_chunk();
+  std::uint64_t warm_up_begin(std::uint64_t end, double share);
   void show_caches();
   void show_rays(const reference::RayBlock& block, std::uint64_t next, std::uint64_t last);
   const reference::RayBlock& block(std::uint64_t number);
@@ -71,7 +73,8 @@ class ChunkFeed : public reference::RayFeed {
   pipeline::Engine* engine_ = nullptr;
   std::vector<std::pair<std::uint64_t, std::shared_ptr<const reference::RayBlock>>> blocks_;  ///< the last ones read
   std::size_t chunk_ = 0;
-  std::uint64_t done_ = 0, warm_ = 0, at_ = 0;  ///< end of the chunk before, first ray and next ray of this one
+  std::uint64_t done_ = 0, at_ = 0;  ///< end of the chunk before, next ray of this one
+  std::uint64_t shown_ = 0;          ///< when its turn comes, caches are shown what lies in front of it
   bool measuring_ = false;
   Moment start_;
   std::vector<Window> windows_;

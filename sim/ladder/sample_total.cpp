@@ -26,12 +26,8 @@ class LeastSquares {
   }
 
   const Sizes& slopes() const { return slopes_; }
-  /// By how much a chunk of these sizes pulls the fit to itself: 0 to 1.
-  double leverage(const Sizes& sizes) const {
-    double sum = 0;
-    for (const double y : forward(sizes)) sum += y * y;
-    return sum;
-  }
+  /// The slopes that these sizes would add, were the value at their place larger by one.
+  Sizes pull(const Sizes& sizes) const { return backward(forward(sizes)); }
 
  private:
   void factorize(const std::array<Sizes, kSizes>& products) {
@@ -125,18 +121,28 @@ Total estimate_total(const std::vector<Draw>& draws, const Sizes& totals, std::s
   constexpr double kHeaviest = 0.9;  // a chunk that alone decides a slope is not judged by the others
   const LeastSquares fit(draws, known);
   Total total;
-  double rest = 0, size = 0;
+  double seen = 0, residual_sum = 0, count = 0;
+  Sizes seen_sizes{}, pull_sum{};
   for (const Draw& draw : draws) {
     std::vector<double>& residuals = total.residuals.emplace_back();
     for (const Measure& m : draw.chunks) {
-      const double residual = m.value - product(fit.slopes(), m.sizes);
-      residuals.push_back(residual / (1 - std::min(kHeaviest, fit.leverage(m.sizes))));
-      rest += residual;
-      size += m.sizes[0];
+      const Sizes pull = fit.pull(m.sizes);
+      const double leverage = std::min(kHeaviest, product(pull, m.sizes));
+      const double residual = (m.value - product(fit.slopes(), m.sizes)) / (1 - leverage);
+      residuals.push_back(residual);
+      residual_sum += residual;
+      seen += m.value;
+      count += 1;
+      for (std::size_t i = 0; i < kSizes; ++i) {
+        seen_sizes[i] += m.sizes[i];
+        pull_sum[i] += residual * pull[i];
+      }
     }
   }
-  total.weight = totals[0] / size;
-  total.value = product(fit.slopes(), totals) + total.weight * rest;
+  total.weight = totals[0] / seen_sizes[0];
+  total.value = seen + (total.weight - 1) * residual_sum;
+  for (std::size_t i = 0; i < kSizes; ++i)
+    total.value += (fit.slopes()[i] - pull_sum[i] / count) * (totals[i] - seen_sizes[i]);
   return total;
 }
 

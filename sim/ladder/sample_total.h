@@ -31,9 +31,11 @@ struct Total {
   std::vector<std::vector<double>> residuals;
 };
 
-/// The regression estimator (Cochran 1977, "Sampling techniques", 7.8; least squares over all draws), without a
-/// constant: the first size is about the same for all chunks. `totals`: of all chunks; sizes from `known` on are not
-/// known. At least one chunk, of a first size above 0.
+/// What was seen, and for the rest a regression of the values on their sizes, without a constant: the first size is
+/// about the same for all chunks (Cochran 1977, "Sampling techniques", 7.8; least squares over all draws). Every chunk
+/// is judged by the fit to all others, as in Quenouille's jackknife (1956), and the mean is taken: the plain estimator
+/// is off by what a heavy chunk pulls the fit to itself, this one is free of bias for a simple random draw. `totals`:
+/// of all chunks; sizes from `known` on are not known. At least one chunk, of a first size above 0.
 Total estimate_total(const std::vector<Draw>& draws, const Sizes& totals, std::size_t known);
 
 struct Spread {

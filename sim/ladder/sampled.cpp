@@ -17,8 +17,9 @@ namespace {
 using pipeline::UnitResult;
 
 // What a chunk's rays and visits do not say of its cycles, relative: what the first draw goes by.
-constexpr double kExpectedSpread = 0.1;
-constexpr std::uint64_t kFewestChunks = 48;
+constexpr double kExpectedSpread = 0.08;
+constexpr std::uint64_t kFewestChunks = 48;  ///< of the first draw
+constexpr std::uint64_t kFewestMore = 16;    ///< of a later one
 constexpr double kLargestShare = 0.5;  ///< of the rays, warm-up included: from there on all are simulated
 constexpr double kFirstShare = 0.25;   ///< likewise, of the first draw
 constexpr double kReserve = 1.15;      ///< chunks drawn beyond what the first ones say are needed
@@ -59,27 +60,29 @@ Chunking chunking_for(const pipeline::UnitConfig& config) {
   const auto contexts = static_cast<std::uint64_t>(config.unit.contexts);
   const std::uint64_t cached = lines(config, config.node_cache.bytes) + lines(config, config.leaf_cache.bytes);
   Chunking c;
-  c.sizes.measured = std::max<std::uint64_t>(32, 8 * contexts);
-  c.sizes.head = 2 * c.sizes.measured;
-  c.sizes.tail = c.sizes.measured;
+  c.sizes.measured = std::max<std::uint64_t>(64, 16 * contexts);
+  c.sizes.head = c.sizes.measured;
+  c.sizes.tail = c.sizes.measured / 2;
   c.warm_up.contexts = contexts;
   // The tables' cache is not shown anything: it fills while rays are simulated.
   c.warm_up.simulated_rays = 3 * contexts + lines(config, config.table_cache.bytes) / 16;
-  c.warm_up.simulated_work = 128 * contexts;
-  c.warm_up.most_simulated_rays = std::max(c.warm_up.simulated_rays, 8 * contexts);
+  c.warm_up.simulated_work = 256 * contexts;
+  c.warm_up.most_simulated_rays = std::max(c.warm_up.simulated_rays, 24 * contexts);
   c.warm_up.shown_visits = 16 * cached;
   c.warm_up.most_shown_rays = 4 * cached;
   return c;
 }
 
+/// In each number as much as the one that asks for more.
 Chunking larger(const Chunking& a, const Chunking& b) {
-  return {
-      {std::max(a.sizes.measured, b.sizes.measured), std::max(a.sizes.head, b.sizes.head),
-       std::max(a.sizes.tail, b.sizes.tail)},
-      {std::max(a.warm_up.contexts, b.warm_up.contexts), std::max(a.warm_up.simulated_rays, b.warm_up.simulated_rays),
-       std::max(a.warm_up.simulated_work, b.warm_up.simulated_work),
-       std::max(a.warm_up.shown_visits, b.warm_up.shown_visits),
-       std::max(a.warm_up.most_shown_rays, b.warm_up.most_shown_rays)}};
+  Chunking c = a;
+  const auto raise = [](auto& mine, const auto& theirs, const auto... members) {
+    ((mine.*members = std::max(mine.*members, theirs.*members)), ...);
+  };
+  raise(c.sizes, b.sizes, &ChunkSizes::measured, &ChunkSizes::head, &ChunkSizes::tail);
+  raise(c.warm_up, b.warm_up, &WarmUp::contexts, &WarmUp::simulated_rays, &WarmUp::simulated_work,
+        &WarmUp::most_simulated_rays, &WarmUp::shown_visits, &WarmUp::most_shown_rays);
+  return c;
 }
 
 void add(UnitResult& sum, const UnitResult& other) {
@@ -253,7 +256,7 @@ bool draw_until_sharp(const TraceWork& work, const Chunking& chunking, const Sam
     if (ratio <= 1) return true;
     const double needed = static_cast<double>(drawn) * ratio * ratio * kReserve;
     wanted = static_cast<std::uint64_t>(std::min(needed, 1e15)) + 1 - drawn;
-    wanted = std::max(wanted, kFewestChunks);
+    wanted = std::max(wanted, kFewestMore);
   }
   return false;
 }

@@ -1,6 +1,7 @@
 // Totals from samples, and their intervals, against tables and against populations whose total is known.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -41,6 +42,34 @@ TEST(sample_total, a_size_that_another_gives_has_no_part_and_none_known_leaves_t
   const std::vector<Draw> draws{draw_of({{20, {2, 4, 0}, 0}, {34, {2, 4, 0}, 0}, {27, {2, 4, 0}, 1}}, 0.5, 0.5)};
   EXPECT_NEAR(estimate_total(draws, {20, 40, 0}, 3).value, 270, 1e-9);
   EXPECT_NEAR(estimate_total(draws, {20, 77, 9}, 1).value, 270, 1e-9);
+}
+
+/// All samples of five of nine chunks, whose sizes say little of their values: an estimator free of bias is right in
+/// the mean of them.
+TEST(sample_total, the_mean_over_all_samples_is_the_total) {
+  const std::vector<Measure> population{{7, {1, 1, 0}, 0}, {2, {1, 2, 0}, 0}, {30, {1, 3, 0}, 0},
+                                        {4, {1, 1, 0}, 0}, {9, {1, 2, 0}, 0}, {1, {1, 3, 0}, 0},
+                                        {8, {1, 1, 0}, 0}, {5, {1, 2, 0}, 0}, {60, {1, 3, 0}, 0}};
+  Sizes sizes{};
+  double truth = 0, sum = 0;
+  for (const Measure& m : population) {
+    truth += m.value;
+    for (std::size_t i = 0; i < kSizes; ++i) sizes[i] += m.sizes[i];
+  }
+  for (const std::size_t known : {1u, 2u}) {
+    int samples = 0;
+    sum = 0;
+    for (unsigned drawn = 0; drawn < 1u << population.size(); ++drawn) {
+      if (std::popcount(drawn) != 5) continue;
+      std::vector<Measure> chunks;
+      for (std::size_t i = 0; i < population.size(); ++i)
+        if ((drawn >> i & 1) != 0) chunks.push_back(population[i]);
+      sum += estimate_total({draw_of(chunks, 1, 5.0 / 9)}, sizes, known).value;
+      ++samples;
+    }
+    EXPECT_EQ(samples, 126);
+    EXPECT_NEAR(sum / samples, truth, 1e-9 * truth) << known;
+  }
 }
 
 TEST(sample_total, of_the_whole_population_leaves_no_doubt) {
