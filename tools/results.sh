@@ -11,7 +11,7 @@ full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
 by_default=(culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor ladder)
-by_name=(ladder_long ladder_coverage)  # half an hour, three hours
+by_name=(ladder_long ladder_coverage)  # a quarter of an hour each, with nothing else to do
 [ ${#sections[@]} -gt 0 ] || sections=("${by_default[@]}")
 
 page=docs/results.md
@@ -452,12 +452,11 @@ tailor() {
 
 # One row: error and price of the engines below `cycle`. Columns of `ladder --markdown`: engine, cycles, error, interval, rays, seconds,
 # cycles/s, times faster.
-ladder_row() {  # LABEL SCENE RAYS OPTION...
-  local label=$1 scene=$2 rays=$3
-  shift 3
+ladder_row() {  # LABEL SCENE RAYS SIZE
+  local label=$1 scene=$2 rays=$3 size=$4
   keep log "$program" record "$scene" -o "$scratch/ladder.ctut" --rays "$rays" --size "$size" --designs mask-lut
-  keep rungs "$program" ladder "$scratch/ladder.ctut" --errors 2% --markdown "$@"
-  awk -F' *[|] *' -v label="$label | $rays" -v rays="$(awk '/^rays /{ print $2 }' <("$program" trace info "$scratch/ladder.ctut"))" '
+  keep rungs "$program" ladder "$scratch/ladder.ctut" --errors 2% --markdown
+  awk -F' *[|] *' -v label="$label | $rays, $size" -v rays="$(awk '/^rays /{ print $2 }' <("$program" trace info "$scratch/ladder.ctut"))" '
     $2 == "estimate" { counting = $9 }
     $2 == "estimate again" { error = $4; faster = $9 }
     $2 ~ /^sampled/ { sample = $4 " | " $5 " | " $6 " | " $9; held = ($4 + 0 < 0 ? -$4 : $4 + 0) <= substr($5, 3) + 0 ? "yes" : "no" }
@@ -476,8 +475,8 @@ ladder() {
   {
     ladder_head
     for rays in diffuse shadow; do
-      for scene in hair-ball curly-hair straight-hair tilted-quads foliage tetra; do ladder_row "gen:$scene" "gen:$scene" "$rays"; done
-      while read -r name path; do ladder_row "$name" "$(dirname "$index")/$path" "$rays"; done <"$index"
+      for scene in hair-ball curly-hair straight-hair tilted-quads foliage tetra; do ladder_row "gen:$scene" "gen:$scene" "$rays" "$size"; done
+      while read -r name path; do ladder_row "$name" "$(dirname "$index")/$path" "$rays" "$size"; done <"$index"
     done
   } >"$scratch/ladder"
   put ladder
@@ -485,13 +484,18 @@ ladder() {
 
 # The same of long traces, where samples pay.
 ladder_long() {
-  local name size=960x540 page=docs/ladder.md
+  local name rays size page=docs/ladder.md
   {
     ladder_head
-    ladder_row gen:hair-ball gen:hair-ball diffuse
-    ladder_row gen:foliage gen:foliage diffuse
-    for name in bunny sponza straight-hair classroom kitchen; do
-      if listed "$name"; then ladder_row "$name" "$(dirname "$index")/$(awk -v name="$name" '$1 == name { print $2 }' "$index")" diffuse; fi
+    for size in 960x540 1920x1080; do
+      while read -r name rays; do
+        if [[ $name == gen:* ]]; then
+          ladder_row "$name" "$name" "$rays" "$size"
+        elif listed "$name"; then
+          ladder_row "$name" "$(dirname "$index")/$(awk -v name="$name" '$1 == name { print $2 }' "$index")" "$rays" "$size"
+        fi
+      done < <(printf '%s\n' "gen:hair-ball diffuse" "gen:foliage diffuse" "bunny diffuse" "sponza diffuse" "straight-hair diffuse" \
+        "classroom diffuse" "kitchen diffuse" "killeroo shadow" "kitchen shadow")
     done
   } >"$scratch/ladder_long"
   put ladder_long
