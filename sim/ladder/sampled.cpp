@@ -20,9 +20,9 @@ using pipeline::UnitResult;
 constexpr double kExpectedSpread = 0.08;
 constexpr std::uint64_t kFewestChunks = 48;  ///< of the first draw
 constexpr std::uint64_t kFewestMore = 16;    ///< of a later one
-constexpr double kLargestShare = 0.5;  ///< of the rays, warm-up included: from there on all are simulated
-constexpr double kFirstShare = 0.25;   ///< likewise, of the first draw
-constexpr double kReserve = 1.15;      ///< chunks drawn beyond what the first ones say are needed
+constexpr double kLargestShare = 0.5;        ///< of the rays, warm-up included: from there on all are simulated
+constexpr double kFirstShare = 0.25;         ///< likewise, of the first draw
+constexpr double kReserve = 1.15;            ///< chunks drawn beyond what the first ones say are needed
 constexpr int kDraws = 5;
 
 /// What the manifest knows of the whole work: rays always, visits if they were counted.
