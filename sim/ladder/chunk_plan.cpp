@@ -5,7 +5,7 @@
 namespace ctu::ladder {
 namespace {
 
-// Reading a block costs about as much as simulating two of its chunks, and neighbouring blocks differ far less than
+// Reading a block costs about as much as simulating one of its chunks, and neighbouring blocks differ far less than
 // neighbouring chunks: so several chunks of a block make a sample of a given sharpness cheapest.
 constexpr std::uint64_t kChunksOfBlock = 4;   ///< where not every block is read, at most about so many
 constexpr std::uint64_t kCellsOfStretch = 4;  ///< likewise, at least
