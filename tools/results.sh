@@ -11,7 +11,7 @@ full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
 by_default=(culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor ladder)
-by_name=(ladder_long ladder_coverage)  # a quarter of an hour each, with nothing else to do
+by_name=(ladder_rtl ladder_long ladder_coverage)  # a quarter of an hour each, with nothing else to do
 [ ${#sections[@]} -gt 0 ] || sections=("${by_default[@]}")
 
 page=docs/results.md
@@ -480,6 +480,31 @@ ladder() {
     done
   } >"$scratch/ladder"
   put ladder
+}
+
+# The same rays in gates: errors against them. Columns of `ladder --markdown` as above.
+ladder_rtl_row() {  # LABEL SCENE RAYS SIZE
+  keep log "$program" record "$2" -o "$scratch/ladder.ctut" --rays "$3" --size "$4" --designs mask-lut
+  keep rungs "$program" ladder "$scratch/ladder.ctut" --errors 2% --markdown --rtl
+  awk -F' *[|] *' -v label="$1 | $3" '
+    $2 == "estimate again" { error = $4 }
+    $2 ~ /^sampled/ { held = ($4 + 0 < 0 ? -$4 : $4 + 0) <= substr($5, 3) + 0 ? "yes" : "no" }
+    $2 == "cycle" { cycles = $3; seconds = $7 }
+    $2 == "rtl" { gates = $3; slower = seconds ? $7 / seconds : 0 }
+    END { printf "| %s | %s | %d | %s | %s | %s |\n", label, gates ? gates : "no build", cycles, error, held, gates ? int(slower) : "" }' \
+    "$scratch/rungs"
+}
+
+ladder_rtl() {
+  local name path rays page=docs/ladder.md
+  {
+    echo "| scene | rays | cycles in gates | cycles of \`cycle\` | estimate: error | sampled 2%: holds | times slower than \`cycle\` |"
+    echo "| --- | --- | ---: | ---: | ---: | --- | ---: |"
+    for rays in diffuse shadow; do
+      while read -r name path; do ladder_rtl_row "$name" "$(dirname "$index")/$path" "$rays" 160x90; done <"$index"
+    done
+  } >"$scratch/ladder_rtl"
+  put ladder_rtl
 }
 
 # The same of long traces, where samples pay.
