@@ -490,8 +490,8 @@ ladder_rtl_row() {  # LABEL SCENE RAYS SIZE
     $2 == "estimate again" { error = $4 }
     $2 ~ /^sampled/ { held = ($4 + 0 < 0 ? -$4 : $4 + 0) <= substr($5, 3) + 0 ? "yes" : "no" }
     $2 == "cycle" { cycles = $3; seconds = $7 }
-    $2 == "rtl" { gates = $3; slower = seconds ? $7 / seconds : 0 }
-    END { printf "| %s | %s | %d | %s | %s | %s |\n", label, gates ? gates : "no build", cycles, error, held, gates ? int(slower) : "" }' \
+    $2 == "rtl" { gates = $3; slower = $7 / seconds }
+    END { printf "| %s | %s | %d | %s | %s | %s |\n", label, gates, cycles, error, held, gates + 0 ? int(slower) : "" }' \
     "$scratch/rungs"
 }
 
