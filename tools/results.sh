@@ -509,21 +509,25 @@ ladder_rtl() {
 
 # The same of long traces, where samples pay.
 ladder_long() {
-  local name rays size page=docs/ladder.md
+  local name path rays page=docs/ladder.md
   {
     ladder_head
-    for size in 960x540 1920x1080; do
-      while read -r name rays; do
-        if [[ $name == gen:* ]]; then
-          ladder_row "$name" "$name" "$rays" "$size"
-        elif listed "$name"; then
-          ladder_row "$name" "$(dirname "$index")/$(awk -v name="$name" '$1 == name { print $2 }' "$index")" "$rays" "$size"
-        fi
-      done < <(printf '%s\n' "gen:hair-ball diffuse" "gen:foliage diffuse" "bunny diffuse" "sponza diffuse" "straight-hair diffuse" \
-        "classroom diffuse" "kitchen diffuse" "killeroo shadow" "kitchen shadow")
-    done
+    for name in hair-ball foliage; do ladder_row "gen:$name" "gen:$name" diffuse 960x540; done
+    while read -r name path; do ladder_row "$name" "$(dirname "$index")/$path" diffuse 960x540; done <"$index"
+    ladder_listed killeroo shadow 960x540
+    ladder_listed kitchen shadow 960x540
+    for name in hair-ball foliage; do ladder_row "gen:$name" "gen:$name" diffuse 1920x1080; done
+    for name in bunny sponza straight-hair classroom kitchen; do ladder_listed "$name" diffuse 1920x1080; done
+    ladder_listed killeroo shadow 1920x1080
+    ladder_listed kitchen shadow 1920x1080
   } >"$scratch/ladder_long"
   put ladder_long
+}
+
+ladder_listed() {  # NAME RAYS SIZE
+  local path
+  path=$(awk -v name="$1" '$1 == name { print $2 }' "$index")
+  [ -z "$path" ] || ladder_row "$1" "$(dirname "$index")/$path" "$2" "$3"
 }
 
 # How often intervals hold: each sample 200 times.
