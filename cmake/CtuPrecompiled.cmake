@@ -1,4 +1,4 @@
-# Headers of the standard library and of fmt, read once for all targets that see fmt: compiling them takes a fifth less.
+# Headers of the standard library and of fmt, read once for all targets that see fmt, not in each source anew.
 # Off unless asked for, as a compiler cache keeps nothing of such builds, and as a source that forgets one of
 # these headers must not be built.
 option(CTU_PRECOMPILE "Precompile headers of the standard library and of fmt (for builds without a compiler cache)" OFF)

@@ -11,7 +11,7 @@ full=0
 if [ "${1:-}" = --full ]; then full=1; shift; fi
 sections=("$@")
 by_default=(culling auto paper packets raybox leaves together variants compression precision tables designs area numerics raydist tailor ladder)
-by_name=(ladder_rtl ladder_long ladder_coverage)  # a quarter of an hour each, with nothing else to do
+by_name=(ladder_rtl ladder_long ladder_coverage)  # up to half an hour each, on a machine with nothing else to do
 [ ${#sections[@]} -gt 0 ] || sections=("${by_default[@]}")
 
 page=docs/results.md
